@@ -1,0 +1,202 @@
+//! What a run is made of, checked once.
+//!
+//! [`Parameters`] holds plain numbers as a user gives them; [`Parameters::validate`] says what is wrong
+//! with them. Every constructor of the core calls it, so the inside never checks again.
+//!
+//! ```
+//! use meniscus_core::parameters::{ParameterError, Parameters};
+//!
+//! let table_1 = Parameters { side: 500.0, grid: 512, ..Parameters::default() };
+//! assert_eq!(table_1.validate(), Ok(()));
+//! let nonsense = Parameters { capillary_length: f64::NAN, ..table_1 };
+//! assert_eq!(nonsense.validate(), Err(ParameterError::CapillaryLength));
+//! ```
+
+use crate::torus::LARGEST_SIDE;
+
+/// How a disc's mass is spread over mesh nodes, and the field gathered from them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Assignment {
+    /// Cloud in cell, order 2: linear, 4 nodes.
+    CloudInCell,
+    /// Triangular shaped cloud, order 3: quadratic, 9 nodes.
+    #[default]
+    TriangularShapedCloud,
+}
+
+/// Green's function of the interface on the mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Influence {
+    /// The paper's (Eq. 19, corrected): that of the five-point Laplacian,
+    /// 1/[(4/h²)(sin²(k_x h/2) + sin²(k_y h/2)) + κ²].
+    #[default]
+    Paper,
+    /// The continuum's, 1/(k² + κ²).
+    Continuum,
+}
+
+/// How the gradient of the interface is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Gradient {
+    /// i·k, with the Nyquist frequency zero (Eq. 21).
+    #[default]
+    Spectral,
+    /// Two-point central difference, i·sin(kh)/h.
+    Difference2,
+    /// Four-point central difference, i·[8 sin(kh) − sin(2kh)]/(6h).
+    Difference4,
+}
+
+/// Distribution of the thermal displacement; variance 2Δt per component unless none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Noise {
+    /// Uniform of half-width √(6Δt), as in the paper (Eq. 17, corrected).
+    #[default]
+    Uniform,
+    /// Gaussian of standard deviation √(2Δt).
+    Gaussian,
+    /// No thermal motion: temperature zero ("cold").
+    None,
+}
+
+/// A run's physical and numerical parameters, in units of R0, kBT and R0²/D.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Side L of the square periodic box, R0; above 2·[`crate::repulsion::CUTOFF`], at most 65 536.
+    pub side: f64,
+    /// Strength V0 of the capillary attraction, kBT; 0 to [`LARGEST_CAPILLARY_STRENGTH`], 0 for none.
+    pub capillary_strength: f64,
+    /// Capillary length λ, R0; at least [`SMALLEST_CAPILLARY_LENGTH`], infinity allowed.
+    pub capillary_length: f64,
+    /// Whether discs repel each other at contact (Eq. 15).
+    pub repulsion: bool,
+    /// Nodes M along a side of the mesh: a power of two, 16 to 4096.
+    pub grid: usize,
+    /// Mass assignment.
+    pub assignment: Assignment,
+    /// Influence function.
+    pub influence: Influence,
+    /// Gradient.
+    pub gradient: Gradient,
+    /// Thermal motion.
+    pub noise: Noise,
+    /// Ceiling Δt_max of the time step, R0²/D; 2⁻⁴⁰ to 1.
+    pub max_step: f64,
+    /// Largest displacement by force in a step, R0; above 0, at most 0.5. The paper's is 1/4.
+    pub max_displacement: f64,
+    /// Seed of the noise, 0 to 2⁶³ − 1.
+    pub seed: u64,
+}
+
+impl Default for Parameters {
+    /// Table I's discs in a box of 64 R0 on a mesh of 64 nodes a side.
+    fn default() -> Self {
+        Self {
+            side: 64.0,
+            capillary_strength: 0.89,
+            capillary_length: 270.0,
+            repulsion: true,
+            grid: 64,
+            assignment: Assignment::default(),
+            influence: Influence::default(),
+            gradient: Gradient::default(),
+            noise: Noise::default(),
+            max_step: 0.001,
+            max_displacement: 0.25,
+            seed: 1,
+        }
+    }
+}
+
+/// Largest capillary strength V0, kBT. Bounds the mesh force, see [`crate::units`].
+pub const LARGEST_CAPILLARY_STRENGTH: f64 = 1000.0;
+/// Smallest capillary length λ, R0.
+pub const SMALLEST_CAPILLARY_LENGTH: f64 = 0.01;
+/// Smallest and largest number of mesh nodes along a side.
+pub const GRID_RANGE: (usize, usize) = (16, 4096);
+/// Smallest and largest mesh spacing h = L/M, R0: finer resolves the inside of a disc, coarser no disc.
+pub const SPACING_RANGE: (f64, f64) = (0.125, 16.0);
+/// Largest number of discs. Bounds the total force, see [`crate::units`].
+pub const LARGEST_PARTICLE_COUNT: usize = 1 << 19;
+/// Largest seed, 2⁶³ − 1.
+pub const LARGEST_SEED: u64 = (1 << 63) - 1;
+/// Smallest and largest ceiling of the time step, R0²/D.
+pub const STEP_RANGE: (f64, f64) = (1.0 / 1099511627776.0, 1.0);
+/// Smallest and largest displacement by force in a step, R0.
+pub const DISPLACEMENT_RANGE: (f64, f64) = (1.0 / 1099511627776.0, 0.5);
+
+/// What is wrong with [`Parameters`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParameterError {
+    /// The side is not a finite positive number.
+    Side,
+    /// The side exceeds 65 536 R0: the unit of position would be too coarse.
+    SideTooLarge,
+    /// Half the side does not exceed the cut-off of the repulsion.
+    SideTooSmall,
+    /// V0 is not in 0 … [`LARGEST_CAPILLARY_STRENGTH`].
+    CapillaryStrength,
+    /// λ is not a number of at least [`SMALLEST_CAPILLARY_LENGTH`].
+    CapillaryLength,
+    /// M is not a power of two in [`GRID_RANGE`].
+    Grid,
+    /// The mesh spacing L/M exceeds [`SPACING_RANGE`].
+    GridTooCoarse,
+    /// The mesh spacing L/M is below [`SPACING_RANGE`].
+    GridTooFine,
+    /// Δt_max is not in [`STEP_RANGE`].
+    MaxStep,
+    /// The largest displacement is not in [`DISPLACEMENT_RANGE`].
+    MaxDisplacement,
+    /// The seed exceeds [`LARGEST_SEED`].
+    Seed,
+}
+
+impl Parameters {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// The first [`ParameterError`] found, in the order of the fields.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        let within = |value: f64, (least, most): (f64, f64)| value >= least && value <= most;
+        if !(self.side.is_finite() && self.side > 0.0) {
+            return Err(ParameterError::Side);
+        }
+        if self.side > LARGEST_SIDE {
+            return Err(ParameterError::SideTooLarge);
+        }
+        if self.side <= 2.0 * crate::repulsion::CUTOFF {
+            return Err(ParameterError::SideTooSmall);
+        }
+        if !within(self.capillary_strength, (0.0, LARGEST_CAPILLARY_STRENGTH)) {
+            return Err(ParameterError::CapillaryStrength);
+        }
+        if !within(self.capillary_length, (SMALLEST_CAPILLARY_LENGTH, f64::INFINITY)) {
+            return Err(ParameterError::CapillaryLength);
+        }
+        if !self.grid.is_power_of_two() || self.grid < GRID_RANGE.0 || self.grid > GRID_RANGE.1 {
+            return Err(ParameterError::Grid);
+        }
+        let spacing = self.side / self.grid as f64;
+        if spacing > SPACING_RANGE.1 {
+            return Err(ParameterError::GridTooCoarse);
+        }
+        if spacing < SPACING_RANGE.0 {
+            return Err(ParameterError::GridTooFine);
+        }
+        if !within(self.max_step, STEP_RANGE) {
+            return Err(ParameterError::MaxStep);
+        }
+        if !within(self.max_displacement, DISPLACEMENT_RANGE) {
+            return Err(ParameterError::MaxDisplacement);
+        }
+        if self.seed > LARGEST_SEED {
+            return Err(ParameterError::Seed);
+        }
+        Ok(())
+    }
+}

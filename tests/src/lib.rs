@@ -1,0 +1,3 @@
+//! Shared parts of the tests of Meniscus: independent references, named cases, tolerances.
+
+pub mod reference;
