@@ -7,8 +7,8 @@
 //! ```
 //! use meniscus_core::torus::{minimum_image, Torus};
 //!
-//! let torus = Torus::new(500.0).unwrap();
-//! let left = torus.fraction(499.0).unwrap();
+//! let torus = Torus::new(512.0).unwrap();
+//! let left = torus.fraction(511.0).unwrap();
 //! let right = torus.fraction(1.0).unwrap();
 //! assert_eq!(torus.length(minimum_image(right, left)), 2.0);
 //! ```

@@ -1,1 +1,60 @@
-//! Units.
+//! The quanta in which sums are made, and why they cannot overflow.
+//!
+//! | quantity | held as | unit |
+//! |---|---|---|
+//! | mass on a mesh node | `u32` | 2⁻²⁰ discs, see [`crate::assignment`] |
+//! | force component | `i64` | 2⁻²⁴ kBT/R0 |
+//! | time step, time | `u64` | 2⁻⁴⁰ R0²/D |
+//!
+//! # The bound of the total force
+//! A pair repels with at most [`crate::repulsion::LARGEST_FORCE`] ≈ 7.7·10⁵ kBT/R0, below 1.3·10¹³ units.
+//! With at most 2¹⁹ discs, all of them in one place, a component stays below
+//! 2¹⁹ · 1.3·10¹³ < 6.9·10¹⁸ units. The mesh adds, with V0 ≤ 1000 kBT and h ≥ R0/8, at most
+//! 4 N V0/h < 1.7·10¹⁰ kBT/R0, below 2.9·10¹⁷ units (the sum of the moduli of all modes of the
+//! influence function times its gradient is about 3.0 V0/h per disc, whatever the mesh). Together they are below
+//! 2⁶³ ≈ 9.2·10¹⁸ units, whatever the positions are; a squared modulus is below 2¹²⁷.
+//!
+//! ```
+//! use meniscus_core::units::{force_from_units, round_half_even, TIME_UNITS};
+//!
+//! assert_eq!(round_half_even(2.5), 2);
+//! assert_eq!(round_half_even(-3.5), -4);
+//! assert_eq!(force_from_units(1 << 24), 1.0);
+//! assert_eq!(TIME_UNITS, 1_u64 << 40);
+//! ```
+
+/// Units of force in 1 kBT/R0, 2²⁴.
+pub const FORCE_UNITS: f32 = 16_777_216.0;
+
+/// Units of time in 1 R0²/D, 2⁴⁰.
+pub const TIME_UNITS: u64 = 1 << 40;
+
+/// 2²³: from here on every binary32 number is an integer.
+const ALL_INTEGERS: f32 = 8_388_608.0;
+
+/// The integer nearest to `value`, ties to even; saturates at the ends of `i64`.
+///
+/// Exact for every finite `value`, and made of one comparison, one addition and one subtraction, so that
+/// lanes of any width can do the same: below 2²³ adding and subtracting 2²³ with the sign of `value` rounds
+/// to an integer, from there on `value` is one.
+#[must_use]
+pub fn round_half_even(value: f32) -> i64 {
+    if value.abs() < ALL_INTEGERS {
+        let shift = ALL_INTEGERS.copysign(value);
+        ((value + shift) - shift) as i64
+    } else {
+        value as i64
+    }
+}
+
+/// A force component in kBT/R0, from units of 2⁻²⁴ kBT/R0.
+#[must_use]
+pub fn force_from_units(units: i64) -> f64 {
+    units as f64 / f64::from(FORCE_UNITS)
+}
+
+/// A time in R0²/D, from units of 2⁻⁴⁰ R0²/D.
+#[must_use]
+pub fn time_from_units(units: u64) -> f64 {
+    units as f64 / TIME_UNITS as f64
+}

@@ -1,0 +1,204 @@
+//! The engine as one plain value: M × M mesh nodes and room for N discs, for a `static`.
+//!
+//! ```
+//! use meniscus_core::engine::Engine;
+//! use meniscus_core::parameters::Parameters;
+//! use meniscus_core::torus::{Position, Torus};
+//! use std::sync::Mutex;
+//!
+//! static ENGINE: Mutex<Engine<64, 256>> = Mutex::new(Engine::new());
+//!
+//! let torus = Torus::new(64.0).unwrap();
+//! let at = |x, y| Position { x: torus.fraction(x).unwrap(), y: torus.fraction(y).unwrap() };
+//! let mut engine = ENGINE.lock().unwrap();
+//! engine.init(&Parameters::default(), [(0, at(10.0, 10.0)), (1, at(13.0, 10.0))]).unwrap();
+//! for _ in 0..10 {
+//!     engine.step().unwrap();
+//! }
+//! assert_eq!(engine.clock().step, 10);
+//! println!("{}", engine.state().digest());
+//! ```
+
+use crate::digest::State;
+use crate::dynamics::{Clock, Dynamics, ForceError, InitError, Memory, Step, StepError};
+use crate::parameters::Parameters;
+use crate::torus::{Fraction, Position};
+use crate::transform::{Complex32, FixedSize};
+
+/// Rows of the spectrum worked on together, times two: 8 complex numbers fill a cache line.
+const LINES: usize = 16;
+
+/// A run on an M × M mesh with room for N discs.
+///
+/// M is a power of two from 16 to 4096. All memory is inside; nothing is allocated.
+#[derive(Debug)]
+pub struct Engine<const M: usize, const N: usize> {
+    dynamics: Dynamics,
+    ids: [u32; N],
+    slots: [u32; N],
+    x: [Fraction; N],
+    y: [Fraction; N],
+    crossings_x: [i32; N],
+    crossings_y: [i32; N],
+    force_x: [i64; N],
+    force_y: [i64; N],
+    displacement_x: [i32; N],
+    displacement_y: [i32; N],
+    next: [u32; N],
+    nodes: [[u32; M]; M],
+    field: [[Complex32; M]; M],
+    lines: [[Complex32; M]; LINES],
+    influence: [[f32; M]; M],
+    gradient: [f32; M],
+}
+
+impl<const M: usize, const N: usize> Default for Engine<M, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const M: usize, const N: usize> Engine<M, N> {
+    /// An engine without discs, all bits zero, so that a `static` of it takes no room in the program's file.
+    #[must_use]
+    pub const fn new() -> Self {
+        const ZERO: Complex32 = Complex32 { re: 0.0, im: 0.0 };
+        Self {
+            dynamics: Dynamics::blank(),
+            ids: [0; N],
+            slots: [0; N],
+            x: [Fraction::ZERO; N],
+            y: [Fraction::ZERO; N],
+            crossings_x: [0; N],
+            crossings_y: [0; N],
+            force_x: [0; N],
+            force_y: [0; N],
+            displacement_x: [0; N],
+            displacement_y: [0; N],
+            next: [0; N],
+            nodes: [[0; M]; M],
+            field: [[ZERO; M]; M],
+            lines: [[ZERO; M]; LINES],
+            influence: [[0.0; M]; M],
+            gradient: [0.0; M],
+        }
+    }
+
+    /// Starts a run at step 0 and time 0 from discs given with their ids 0 … n−1 in any order, 1 ≤ n ≤ N.
+    ///
+    /// # Errors
+    /// An [`InitError`]; the engine then has no discs.
+    pub fn init(
+        &mut self,
+        parameters: &Parameters,
+        discs: impl IntoIterator<Item = (u32, Position)>,
+    ) -> Result<(), InitError> {
+        self.init_at(parameters, Clock::START, discs)
+    }
+
+    /// Starts a run at `clock`: a state reached before goes on as if it had never stopped.
+    ///
+    /// # Errors
+    /// An [`InitError`]; the engine then has no discs.
+    pub fn init_at(
+        &mut self,
+        parameters: &Parameters,
+        clock: Clock,
+        discs: impl IntoIterator<Item = (u32, Position)>,
+    ) -> Result<(), InitError> {
+        self.dynamics = Dynamics::blank();
+        parameters.validate().map_err(InitError::Parameters)?;
+        if parameters.grid != M {
+            return Err(InitError::GridMismatch);
+        }
+        let (dynamics, mut memory) = self.parts();
+        *dynamics = Dynamics::new(parameters, clock, discs, &mut memory)?;
+        Ok(())
+    }
+
+    /// Does one step and tells what happened.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state is then as it was.
+    pub fn step(&mut self) -> Result<Step, StepError> {
+        let (dynamics, mut memory) = self.parts();
+        dynamics.step(&FixedSize::<M>, &mut memory)
+    }
+
+    /// Computes the forces at the present positions, for [`Engine::force`].
+    ///
+    /// # Errors
+    /// A [`ForceError`].
+    pub fn compute_forces(&mut self) -> Result<(), ForceError> {
+        let (dynamics, mut memory) = self.parts();
+        dynamics.forces(&FixedSize::<M>, &mut memory)
+    }
+
+    /// Number of discs.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.dynamics.count()
+    }
+
+    /// Steps done and time reached.
+    #[must_use]
+    pub fn clock(&self) -> Clock {
+        self.dynamics.clock()
+    }
+
+    /// The state as its canonical bytes see it; gives the digest.
+    #[must_use]
+    pub fn state(&self) -> State<'_> {
+        self.dynamics.state(&self.slots, &self.x, &self.y)
+    }
+
+    /// Where disc `id` is.
+    #[must_use]
+    pub fn position(&self, id: u32) -> Option<Position> {
+        let slot = self.slot(id)?;
+        Some(Position { x: *self.x.get(slot)?, y: *self.y.get(slot)? })
+    }
+
+    /// How many borders disc `id` has crossed along x and y since the run was set up, + to the right and up.
+    #[must_use]
+    pub fn crossings(&self, id: u32) -> Option<(i32, i32)> {
+        let slot = self.slot(id)?;
+        Some((*self.crossings_x.get(slot)?, *self.crossings_y.get(slot)?))
+    }
+
+    /// The force on disc `id` when forces were last computed, by a step before it moved the discs or by
+    /// [`Engine::compute_forces`]; unit 2⁻²⁴ kBT/R0.
+    #[must_use]
+    pub fn force(&self, id: u32) -> Option<(i64, i64)> {
+        let slot = self.slot(id)?;
+        Some((*self.force_x.get(slot)?, *self.force_y.get(slot)?))
+    }
+
+    fn slot(&self, id: u32) -> Option<usize> {
+        let slots = self.slots.get(..self.count())?;
+        slots.get(id as usize).map(|&slot| slot as usize)
+    }
+
+    /// The run and its memory.
+    fn parts(&mut self) -> (&mut Dynamics, Memory<'_>) {
+        let memory = Memory {
+            ids: &mut self.ids,
+            slots: &mut self.slots,
+            x: &mut self.x,
+            y: &mut self.y,
+            crossings_x: &mut self.crossings_x,
+            crossings_y: &mut self.crossings_y,
+            force_x: &mut self.force_x,
+            force_y: &mut self.force_y,
+            displacement_x: &mut self.displacement_x,
+            displacement_y: &mut self.displacement_y,
+            next: &mut self.next,
+            nodes: self.nodes.as_flattened_mut(),
+            field: self.field.as_flattened_mut(),
+            lines: self.lines.as_flattened_mut(),
+            influence: self.influence.as_flattened_mut(),
+            gradient: &mut self.gradient,
+        };
+        (&mut self.dynamics, memory)
+    }
+}

@@ -1,0 +1,180 @@
+//! The mesh solver: from node masses to the force field on the nodes.
+//!
+//! The order of operations is part of the contract; where things lie in memory is not. Columns x and
+//! x + M/2 of the real mass are transformed together along y as one complex line, split by symmetry, and the
+//! M/2+1 half-spectra transformed along x. Each mode is multiplied by the influence function and the
+//! gradient, and one complex inverse transform, along x and then along y, gives F_x + i·F_y.
+//!
+//! The inverse is the forward transform of exchanged real and imaginary parts (see [`crate::transform`]): the
+//! spectrum is written exchanged, and the field comes out with F_x as its real part.
+//!
+//! ```
+//! use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
+//! use meniscus_core::mesh::{solve, Tables};
+//! use meniscus_core::parameters::{Gradient, Parameters};
+//! use meniscus_core::transform::{AnySize, Complex32};
+//!
+//! let gradient = Gradient::Difference2;
+//! let parameters = Parameters { grid: 16, side: 16.0, gradient, ..Parameters::default() };
+//! let mut influence = [0.0; influence_length(16)];
+//! let mut gradient = [0.0; 16];
+//! fill_influence(&parameters, &mut influence);
+//! fill_gradient(&parameters, &mut gradient);
+//! let mut nodes = [0; 256];
+//! nodes[8 * 16 + 8] = 1 << 20;
+//! let mut field = [Complex32::new(0.0, 0.0); 256];
+//! let mut lines = [Complex32::new(0.0, 0.0); 32];
+//! let tables = Tables { influence: &influence, gradient: &gradient };
+//! solve(&AnySize, 16, &tables, &nodes, &mut field, &mut lines);
+//! // A disc at the middle attracts from its left to the right.
+//! assert!(field[4 * 16 + 8].re > 0.0);
+//! ```
+
+use crate::transform::{Complex32, LineTransform};
+
+/// What a spectrum is multiplied with, see [`crate::influence`].
+#[derive(Clone, Copy, Debug)]
+pub struct Tables<'a> {
+    /// (M/2+1)² entries.
+    pub influence: &'a [f32],
+    /// M entries.
+    pub gradient: &'a [f32],
+}
+
+/// Turns node masses (M × M, unit 2⁻²⁰ discs) into `field`, F_x + i·F_y on M × M nodes in kBT/R0.
+///
+/// `lines` is working memory of 2M elements or a multiple of that; with 16M whole cache lines are used.
+pub fn solve<T: LineTransform>(
+    transform: &T,
+    grid: usize,
+    tables: &Tables<'_>,
+    nodes: &[u32],
+    field: &mut [Complex32],
+    lines: &mut [Complex32],
+) {
+    if grid < 2 || lines.len() < 2 * grid {
+        return;
+    }
+    transform_columns(transform, grid, nodes, field);
+    let rows_at_once = lines.len() / (2 * grid);
+    let (upper, lower) = lines.split_at_mut(rows_at_once * grid);
+    let half = grid / 2;
+    for first in (0..=half).step_by(rows_at_once) {
+        let rows = Rows { grid, first, count: rows_at_once.min(half + 1 - first) };
+        rows.split_columns(field, upper);
+        rows.to_force(transform, tables, upper, lower);
+        rows.store(field, upper, lower);
+    }
+    for line in field.chunks_exact_mut(grid) {
+        transform.forward(line);
+    }
+}
+
+/// Transforms columns x and x + M/2 along y as one complex line, into line x of `field`, x < M/2.
+fn transform_columns<T: LineTransform>(transform: &T, grid: usize, nodes: &[u32], field: &mut [Complex32]) {
+    let (left, right) = nodes.split_at(nodes.len() / 2);
+    let columns = left.chunks_exact(grid).zip(right.chunks_exact(grid));
+    for (line, (left, right)) in field.chunks_exact_mut(grid).zip(columns) {
+        for (value, (&left, &right)) in line.iter_mut().zip(left.iter().zip(right)) {
+            *value = Complex32::new(left as f32, right as f32);
+        }
+        transform.forward(line);
+    }
+}
+
+/// Consecutive rows of the spectrum, k_y index `first` to `first + count` − 1, all in 0 … M/2.
+///
+/// Row m and its mirror −m of the result take the place of elements m and M − m of every line of the field.
+struct Rows {
+    grid: usize,
+    first: usize,
+    count: usize,
+}
+
+impl Rows {
+    /// The indices m.
+    fn indices(&self) -> core::ops::Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// Whether row m is its own mirror image: 0 and Nyquist.
+    fn is_own_mirror(&self, index: usize) -> bool {
+        index == 0 || index == self.grid / 2
+    }
+
+    /// Separates the spectra of the two columns in each line: twice that of column x and of x + M/2.
+    fn split_columns(&self, field: &[Complex32], upper: &mut [Complex32]) {
+        let (grid, half) = (self.grid, self.grid / 2);
+        for (x, line) in field.chunks_exact(grid).take(half).enumerate() {
+            for (row, index) in upper.chunks_exact_mut(grid).zip(self.indices()) {
+                let mirror = (grid - index) & (grid - 1);
+                let (Some(z), Some(w)) = (line.get(index), line.get(mirror)) else { continue };
+                let (left, right) = row.split_at_mut(half);
+                if let (Some(left), Some(right)) = (left.get_mut(x), right.get_mut(x)) {
+                    *left = Complex32::new(z.re + w.re, z.im - w.im);
+                    *right = Complex32::new(z.im + w.im, w.re - z.re);
+                }
+            }
+        }
+    }
+
+    /// Transforms each row along x, multiplies it with the tables and transforms the result back along x:
+    /// row m into `upper`, row −m into `lower`.
+    fn to_force<T: LineTransform>(
+        &self,
+        transform: &T,
+        tables: &Tables<'_>,
+        upper: &mut [Complex32],
+        lower: &mut [Complex32],
+    ) {
+        let rows = upper.chunks_exact_mut(self.grid).zip(lower.chunks_exact_mut(self.grid));
+        for ((row, mirror), index) in rows.zip(self.indices()) {
+            transform.forward(row);
+            multiply(self.grid, tables, index, row, mirror);
+            transform.forward(row);
+            if !self.is_own_mirror(index) {
+                transform.forward(mirror);
+            }
+        }
+    }
+
+    /// Puts the rows into their places in the field.
+    fn store(&self, field: &mut [Complex32], upper: &[Complex32], lower: &[Complex32]) {
+        for (x, line) in field.chunks_exact_mut(self.grid).enumerate() {
+            let rows = upper.chunks_exact(self.grid).zip(lower.chunks_exact(self.grid));
+            for ((row, mirror), index) in rows.zip(self.indices()) {
+                if let (Some(value), Some(&force)) = (line.get_mut(index), row.get(x)) {
+                    *value = force;
+                }
+                if self.is_own_mirror(index) {
+                    continue;
+                }
+                if let (Some(value), Some(&force)) = (line.get_mut(self.grid - index), mirror.get(x)) {
+                    *value = force;
+                }
+            }
+        }
+    }
+}
+
+/// Multiplies row m of the spectrum with influence function and gradient.
+///
+/// With S = influence · ρ̂ and the gradient g, F̂ = i g S; F̂_x + i·F̂_y with its parts exchanged is
+/// (g_y S_re − g_x S_im) − i (g_x S_re + g_y S_im), and at −k, where S is conjugate and g changes sign,
+/// −(g_y S_re + g_x S_im) + i (g_x S_re − g_y S_im).
+fn multiply(grid: usize, tables: &Tables<'_>, index: usize, row: &mut [Complex32], mirror: &mut [Complex32]) {
+    let half = grid / 2;
+    let influence = tables.influence.get(index * (half + 1)..).unwrap_or(&[]);
+    let along_y = tables.gradient.get(index).copied().unwrap_or(0.0);
+    for (x, (value, &along_x)) in row.iter_mut().zip(tables.gradient).enumerate() {
+        let frequency = if x > half { grid - x } else { x };
+        let factor = influence.get(frequency).copied().unwrap_or(0.0);
+        let (real, imaginary) = (factor * value.re, factor * value.im);
+        let (x_real, x_imaginary) = (along_x * real, along_x * imaginary);
+        let (y_real, y_imaginary) = (along_y * real, along_y * imaginary);
+        *value = Complex32::new(y_real - x_imaginary, -x_real - y_imaginary);
+        if let Some(opposite) = mirror.get_mut((grid - x) & (grid - 1)) {
+            *opposite = Complex32::new(-y_real - x_imaginary, x_real - y_imaginary);
+        }
+    }
+}
