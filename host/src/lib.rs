@@ -1,6 +1,7 @@
 //! The std host of Meniscus.
 
 pub mod configuration;
+pub mod engine;
 pub mod files;
 pub mod observables;
 pub mod snapshot;
