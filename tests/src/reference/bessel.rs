@@ -1,6 +1,6 @@
 //! The modified Bessel functions K₀ and K₁ of a positive number, to about 1e-15 relative.
 //!
-//! Up to [`SERIES_LIMIT`] by their power series (Abramowitz & Stegun 9.6.11 and 9.6.13), beyond it by the
+//! Up to x = 1 by their power series (Abramowitz & Stegun 9.6.11 and 9.6.13), beyond it by the
 //! trapezoidal rule on K_ν(x) = ∫₀^∞ exp(−x cosh t) cosh(νt) dt (9.6.24), whose error falls exponentially
 //! with the inverse step because the integrand is entire and decays doubly exponentially.
 

@@ -1,8 +1,8 @@
 //! Independent references in double precision.
 //!
-//! Everything here is written from the equations of `PHYSICS.md` alone and shares no code with the
-//! engine: [`bessel`] gives K₀ and K₁, [`images`] sums them over the periodic images, [`ewald`] reaches
-//! the same forces without any Bessel function, and [`wca`] is the contact repulsion in closed form.
+//! Everything here is written from the equations of the model alone and shares no code with the engine:
+//! [`bessel`] gives K₀ and K₁, [`images`] sums them over the periodic images, [`ewald`] reaches the same
+//! forces without any Bessel function, and [`wca`] is the contact repulsion in closed form.
 //!
 //! Lengths are in disc radii R₀, energies in k_B T, forces in k_B T/R₀. Positions are `[x, y]` in a square
 //! periodic box; any real numbers are accepted and taken modulo the side.

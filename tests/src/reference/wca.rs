@@ -2,7 +2,7 @@
 
 use super::minimum_image;
 
-/// Separation below which the force keeps its value, in R₀. It is about 7.7e5 k_B T/R₀ there; the design
+/// Separation below which the force keeps its value, in R₀. It is about 7.7e5 k_B T/R₀ there: the engine
 /// caps it so that every pair force has a bound, and the step rule parts such discs in a few steps.
 pub const SMALLEST_SEPARATION: f64 = 0.9;
 
