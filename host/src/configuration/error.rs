@@ -75,7 +75,7 @@ pub enum ConfigurationError {
         reason: String,
     },
     /// There is no such preset.
-    #[error("unknown preset `{}`{}; `meniscus presets` lists them", quoted(.name), suggestion(.nearest.as_deref()))]
+    #[error("unknown preset `{}`{} (`meniscus presets` lists them)", quoted(.name), suggestion(.nearest.as_deref()))]
     UnknownPreset {
         /// The name given.
         name: String,

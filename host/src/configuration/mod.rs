@@ -17,12 +17,20 @@
 //! # Ok::<(), meniscus::configuration::ConfigurationError>(())
 //! ```
 
+mod assemble;
+mod checks;
+mod entries;
 mod error;
+pub mod keys;
+mod names;
+mod presets;
 mod sections;
 mod system;
+mod write;
 
 pub use error::{ConfigurationError, Place};
 pub use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise};
+pub use presets::{PRESETS, Preset, preset};
 pub use sections::{
     DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Lattice, Mesh, Method, Motion, Output, Start, Time,
     default_grid,
@@ -30,6 +38,7 @@ pub use sections::{
 pub use system::{Attraction, BOLTZMANN_CONSTANT, Physical, System};
 
 use core::f64::consts::PI;
+use std::path::Path;
 
 use meniscus_core::parameters::Parameters;
 
@@ -67,6 +76,71 @@ pub struct Configuration {
 }
 
 impl Configuration {
+    /// Reads a file, then `overrides` (each `key=value`, the value in TOML or a bare word).
+    ///
+    /// An override displaces what the file says of its key. If it changes `start.kind`, the file's
+    /// keys of its own kind of start go; if it gives the attraction in SI by one way, the file's other
+    /// way goes. Keys that only overrides give are checked like the file's.
+    ///
+    /// # Errors
+    /// A [`ConfigurationError`] that says in one line what is wrong where.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, ConfigurationError> {
+        let name = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|error| ConfigurationError::Unreadable {
+            file: name.clone(),
+            reason: error.to_string(),
+        })?;
+        Self::from_bytes(&name, &bytes, overrides)
+    }
+
+    /// Reads the bytes of a file, called `name` in messages; otherwise as [`Configuration::read`].
+    ///
+    /// # Errors
+    /// A [`ConfigurationError`] that says in one line what is wrong where.
+    pub fn from_bytes(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, ConfigurationError> {
+        let text = std::str::from_utf8(bytes).map_err(|error| ConfigurationError::Encoding {
+            file: name.to_owned(),
+            byte: error.valid_up_to(),
+        })?;
+        Self::from_text(name, text, overrides)
+    }
+
+    /// Reads a text, called `name` in messages; otherwise as [`Configuration::read`].
+    ///
+    /// # Errors
+    /// A [`ConfigurationError`] that says in one line what is wrong where.
+    pub fn from_text(name: &str, text: &str, overrides: &[String]) -> Result<Self, ConfigurationError> {
+        assemble::assemble(entries::Entries::read(name, text, overrides)?)
+    }
+
+    /// Reads the preset called `name`; otherwise as [`Configuration::read`].
+    ///
+    /// # Errors
+    /// A [`ConfigurationError`]; for an unknown preset it names the nearest one.
+    pub fn from_preset(name: &str, overrides: &[String]) -> Result<Self, ConfigurationError> {
+        Self::from_text(&format!("preset {name}"), preset(name)?.text, overrides)
+    }
+
+    /// Reads what a command line gives as configuration: a file if there is one of that name, or if it
+    /// looks like one (ends in `.toml` or has a `/` or `\\` in it), else a preset.
+    ///
+    /// # Errors
+    /// A [`ConfigurationError`] that says in one line what is wrong where.
+    pub fn from_argument(argument: &str, overrides: &[String]) -> Result<Self, ConfigurationError> {
+        let path = Path::new(argument);
+        if path.is_file() || argument.ends_with(".toml") || argument.contains(['/', '\\']) {
+            Self::read(path, overrides)
+        } else {
+            Self::from_preset(argument, overrides)
+        }
+    }
+
+    /// The whole configuration as TOML with comments: it reads back to an equal configuration.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        write::to_toml(self)
+    }
+
     /// What the engine needs.
     #[must_use]
     pub fn parameters(&self) -> Parameters {
@@ -135,5 +209,157 @@ impl Configuration {
     #[must_use]
     pub fn seconds_per_time_unit(&self) -> Option<f64> {
         self.physical.map(|physical| physical.seconds_per_time_unit())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn preset_with(name: &str, overrides: &[&str]) -> Result<Configuration, String> {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        Configuration::from_preset(name, &overrides).map_err(|error| error.to_string())
+    }
+
+    #[track_caller]
+    fn assert_near(value: f64, expected: f64, relative: f64) {
+        assert!((value / expected - 1.0).abs() <= relative, "{value} is not {expected} within {relative}");
+    }
+
+    #[test]
+    fn jeans_time_of_table_1_in_si() {
+        let configuration = preset_with("table-1-si", &[]).unwrap();
+        let seconds = configuration.seconds_per_time_unit().unwrap();
+        assert_near(seconds, 2278.0, 2e-4);
+        assert_near(configuration.jeans_time().unwrap() * seconds, 40_780.0, 2e-3);
+    }
+
+    #[test]
+    fn table_1_in_si_is_table_1() {
+        let reduced = preset_with("table-1", &[]).unwrap();
+        let physical = preset_with("table-1-si", &[]).unwrap();
+        assert_near(physical.system.side, reduced.system.side, 1e-15);
+        assert_near(physical.system.capillary_length, reduced.system.capillary_length, 1e-15);
+        assert_eq!(physical.system.particles, reduced.system.particles);
+        assert_eq!(Configuration { physical: None, system: reduced.system, ..physical }, reduced);
+    }
+
+    #[test]
+    fn the_force_on_a_disc_gives_the_strength() {
+        let tension = 0.072_f64;
+        let thermal_energy = BOLTZMANN_CONSTANT * 300.0;
+        let force = (0.89 * thermal_energy * 2.0 * PI * tension).sqrt();
+        let force = format!("physical.force={force:?}");
+        let by_force = preset_with("table-1-si", &[&force, "physical.surface_tension=0.072"]).unwrap();
+        assert_near(by_force.system.capillary_strength, 0.89, 1e-14);
+    }
+
+    #[test]
+    fn the_density_of_a_patch_is_that_of_the_patch() {
+        let rings = preset_with("fig-12", &[]).unwrap();
+        assert_near(rings.mean_density(), 450.0 / (PI * 183.0 * 183.0), 1e-4);
+        assert_near(rings.jeans_time().unwrap(), 41.81, 1e-4);
+        let disc = preset_with("fig-14", &[]).unwrap();
+        assert_near(disc.mean_density(), 451.0 / (PI * 183.0 * 183.0), 1e-15);
+        let random = preset_with("fig-2", &[]).unwrap();
+        assert_near(random.mean_density(), 0.01, 1e-15);
+    }
+
+    #[test]
+    fn times_are_in_jeans_times_with_attraction_and_in_diffusion_times_without() {
+        let attracted = preset_with("table-1", &[]).unwrap();
+        assert_near(attracted.end_time(), 5.0 * 17.8825, 1e-4);
+        let free = preset_with("table-1", &["system.capillary_strength=0"]).unwrap();
+        assert_eq!(free.jeans_time(), None);
+        assert_eq!(free.end_time(), 5.0);
+    }
+
+    #[test]
+    fn a_minimal_configuration_has_the_defaults_of_table_1() {
+        let text = "version = 1\nsystem = { particles = 2500, box = 500, capillary_strength = 0.89, \
+                    capillary_length = 270 }";
+        let minimal = Configuration::from_text("minimal", text, &[]).unwrap();
+        assert_eq!(minimal, preset_with("table-1", &[]).unwrap());
+        let free = "version = 1\nsystem = { particles = 10, box = 50, capillary_strength = 0 }";
+        let free = Configuration::from_text("free", free, &[]).unwrap();
+        assert_eq!(free.time.until, DEFAULT_DIFFUSION_TIMES);
+        assert_eq!(free.system.capillary_length, f64::INFINITY);
+    }
+
+    #[test]
+    fn overrides_take_toml_values_and_bare_words() {
+        let configuration = preset_with(
+            "table-1",
+            &["mesh.assignment=cic", "motion.noise = \"none\"", "system.capillary_length=inf", "seed=7"],
+        )
+        .unwrap();
+        assert_eq!(configuration.mesh.assignment, Assignment::CloudInCell);
+        assert_eq!(configuration.motion.noise, Noise::None);
+        assert_eq!(configuration.system.capillary_length, f64::INFINITY);
+        assert_eq!(configuration.seed, 7);
+    }
+
+    #[test]
+    fn the_last_override_of_a_key_holds() {
+        assert_eq!(preset_with("table-1", &["seed=7", "seed=8"]).unwrap().seed, 8);
+    }
+
+    #[test]
+    fn an_overridden_kind_of_start_displaces_the_keys_of_the_other() {
+        let disc = preset_with("fig-12", &["start.kind=disc", "start.radius=183"]).unwrap();
+        assert_eq!(disc.start, Start::Disc { radius: 183.0 });
+        let error = preset_with("fig-12", &["start.kind=disc", "start.radius=183", "start.rings=9"]);
+        assert_eq!(
+            error.unwrap_err(),
+            "--set: start.rings: not allowed with start.kind = \"disc\": it belongs to start.kind = \"rings\""
+        );
+    }
+
+    #[test]
+    fn bad_overrides_say_so() {
+        for (text, message) in [
+            ("seed", "--set: found `seed`, expected key=value, such as mesh.grid=512"),
+            ("=3", "--set: found `=3`, expected key=value, such as mesh.grid=512"),
+            ("mesh.gird=512", "--set: unknown key `mesh.gird`; did you mean `mesh.grid`?"),
+            ("grid=512", "--set: unknown key `grid`; did you mean `mesh.grid`?"),
+            ("zzz=1", "--set: unknown key `zzz`"),
+            (
+                "seed=",
+                "--set: seed: found \"\" (string), expected a whole number from 0 to 9223372036854775807",
+            ),
+            ("seed=\"1", "--set: seed: found \"1, expected a TOML value with its quotes and brackets closed"),
+            ("mesh=512", "--set: mesh: found 512 (whole number), expected a table of keys, as under [mesh]"),
+            ("mesh.grid=500", "--set: mesh.grid: found 500, expected a power of two from 16 to 4096"),
+            (
+                "physical.radius=1e-5",
+                "--set: physical: not allowed together with `system`: give the system in R0 and kBT as `system`, \
+                 or in SI as `physical`",
+            ),
+        ] {
+            assert_eq!(preset_with("table-1", &[text]).unwrap_err(), message);
+        }
+    }
+
+    #[test]
+    fn a_preset_that_is_not_there_names_its_neighbour() {
+        assert_eq!(
+            preset_with("fig2", &[]).unwrap_err(),
+            "unknown preset `fig2`; did you mean `fig-2`? (`meniscus presets` lists them)"
+        );
+    }
+
+    #[test]
+    fn an_argument_is_a_file_or_a_preset() {
+        assert!(Configuration::from_argument("fig-3", &[]).is_ok());
+        let missing = Configuration::from_argument("no/such.toml", &[]).unwrap_err();
+        assert!(matches!(missing, ConfigurationError::Unreadable { .. }));
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_refused() {
+        assert_eq!(
+            Configuration::from_bytes("x.toml", b"version\xff", &[]).unwrap_err().to_string(),
+            "x.toml: is not text in UTF-8, as TOML must be (byte 7)"
+        );
     }
 }

@@ -134,7 +134,7 @@ pub struct Output {
     pub observables: f64,
     /// Interval of the frames of the trajectory.
     pub trajectory: f64,
-    /// Interval of the snapshots.
+    /// Interval of the snapshots (pictures).
     pub snapshots: f64,
 }
 

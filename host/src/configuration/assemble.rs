@@ -1,0 +1,225 @@
+//! From checked values to a configuration: required keys, defaults and keys that exclude each other.
+
+use std::path::PathBuf;
+
+use super::checks::check;
+use super::entries::Entries;
+use super::error::ConfigurationError;
+use super::keys::key;
+use super::names::{
+    ASSIGNMENTS, GRADIENTS, INFLUENCES, LATTICES, METHODS, NOISES, STARTS, StartWord, meaning,
+};
+use super::{
+    Attraction, Configuration, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Mesh, Motion, Output,
+    Physical, Start, System, Time, VERSION, default_grid,
+};
+
+/// A configuration from checked values.
+pub(super) fn assemble(mut entries: Entries) -> Result<Configuration, ConfigurationError> {
+    refuse_both_units(&entries)?;
+    settle_attraction(&mut entries)?;
+    let start_word = settle_start(&mut entries)?;
+    refuse_missing(&entries, start_word)?;
+    let physical = entries.table("physical").is_some().then(|| physical(&entries));
+    let system = physical.map_or_else(|| system(&entries), |physical| physical.reduced());
+    let configuration = Configuration {
+        version: VERSION,
+        seed: entries.integer("seed").unwrap_or(1),
+        physical,
+        system,
+        force: Force { method: choice(&entries, "force.method", &METHODS).unwrap_or_default() },
+        mesh: mesh(&entries, system.side),
+        motion: motion(&entries),
+        start: start(&entries, start_word.word),
+        time: time(&entries, system.capillary_strength),
+        output: output(&entries),
+    };
+    check(&configuration, &entries)?;
+    Ok(configuration)
+}
+
+/// Refuses a system given twice.
+fn refuse_both_units(entries: &Entries) -> Result<(), ConfigurationError> {
+    let (Some(_), Some(place)) = (entries.table("system"), entries.table("physical")) else {
+        return Ok(());
+    };
+    Err(ConfigurationError::Conflict {
+        place: place.clone(),
+        key: "physical".to_owned(),
+        reason: "together with `system`: give the system in R0 and kBT as `system`, or in SI as `physical`"
+            .to_owned(),
+    })
+}
+
+const STRENGTH: &str = "physical.capillary_strength";
+const BY_FORCE: [&str; 2] = ["physical.force", "physical.surface_tension"];
+
+/// Leaves one way of giving the attraction in SI: an override displaces what a file says another way.
+fn settle_attraction(entries: &mut Entries) -> Result<(), ConfigurationError> {
+    for name in BY_FORCE {
+        if entries.is_override(STRENGTH) && !entries.is_override(name) {
+            entries.forget(name);
+        }
+    }
+    if !entries.is_override(STRENGTH) && BY_FORCE.iter().any(|name| entries.is_override(name)) {
+        entries.forget(STRENGTH);
+    }
+    match BY_FORCE.iter().find(|name| entries.has(name)) {
+        Some(name) if entries.has(STRENGTH) => Err(ConfigurationError::Conflict {
+            place: entries.place(name),
+            key: (*name).to_owned(),
+            reason: "together with `physical.capillary_strength`: V0 follows from force and surface_tension"
+                .to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// The kind of start, once keys of other kinds are refused; those of a file are dropped if the kind
+/// itself is overridden.
+fn settle_start(entries: &mut Entries) -> Result<&'static StartWord, ConfigurationError> {
+    let given = entries.text("start.kind");
+    let [random, ..] = &STARTS;
+    let chosen = STARTS.iter().find(|start| Some(start.word) == given).unwrap_or(random);
+    let owns = |start: &StartWord, name| start.required.contains(&name) || start.optional.contains(&name);
+    for owner in &STARTS {
+        for name in owner.required.iter().chain(owner.optional) {
+            if owns(chosen, name) || !entries.has(name) {
+                continue;
+            }
+            if entries.is_override("start.kind") && !entries.is_override(name) {
+                entries.forget(name);
+                continue;
+            }
+            return Err(ConfigurationError::Conflict {
+                place: entries.place(name),
+                key: (*name).to_owned(),
+                reason: format!(
+                    "with start.kind = \"{}\": it belongs to start.kind = \"{}\"",
+                    chosen.word, owner.word
+                ),
+            });
+        }
+    }
+    Ok(chosen)
+}
+
+/// Refuses a configuration that lacks a required key, naming all it lacks.
+fn refuse_missing(entries: &Entries, start: &StartWord) -> Result<(), ConfigurationError> {
+    let mut required = vec!["version"];
+    if entries.table("physical").is_some() {
+        required.extend(["physical.particles", "physical.radius", "physical.box"]);
+        if BY_FORCE.iter().any(|name| entries.has(name)) {
+            required.extend(BY_FORCE);
+        } else {
+            required.push(STRENGTH);
+        }
+        if entries.real(STRENGTH) != Some(0.0) {
+            required.push("physical.capillary_length");
+        }
+        required.extend(["physical.temperature", "physical.mobility"]);
+    } else {
+        required.extend(["system.particles", "system.box", "system.capillary_strength"]);
+        if entries.real("system.capillary_strength") != Some(0.0) {
+            required.push("system.capillary_length");
+        }
+    }
+    required.extend(start.required);
+    required.retain(|name| !entries.has(name));
+    if required.is_empty() {
+        return Ok(());
+    }
+    let described = |name: &&str| {
+        key(name).map_or_else(String::new, |key| format!("`{}` ({}: {})", key.name, key.help, key.accepted()))
+    };
+    let keys = required.iter().map(described).collect::<Vec<_>>().join(", ");
+    Err(ConfigurationError::Missing { place: entries.whole(), keys })
+}
+
+// Below, required keys are there: their defaults are never used.
+
+fn system(entries: &Entries) -> System {
+    System {
+        particles: count(entries, "system.particles"),
+        side: entries.real("system.box").unwrap_or_default(),
+        capillary_strength: entries.real("system.capillary_strength").unwrap_or_default(),
+        capillary_length: entries.real("system.capillary_length").unwrap_or(f64::INFINITY),
+        repulsion: entries.boolean("system.repulsion").unwrap_or(true),
+    }
+}
+
+fn physical(entries: &Entries) -> Physical {
+    let [force, surface_tension] = BY_FORCE.map(|name| entries.real(name));
+    let attraction = match (force, surface_tension) {
+        (Some(force), Some(surface_tension)) => Attraction::Force { force, surface_tension },
+        _ => Attraction::Strength(entries.real(STRENGTH).unwrap_or_default()),
+    };
+    Physical {
+        particles: count(entries, "physical.particles"),
+        radius: entries.real("physical.radius").unwrap_or_default(),
+        side: entries.real("physical.box").unwrap_or_default(),
+        capillary_length: entries.real("physical.capillary_length").unwrap_or(f64::INFINITY),
+        attraction,
+        temperature: entries.real("physical.temperature").unwrap_or_default(),
+        mobility: entries.real("physical.mobility").unwrap_or_default(),
+        repulsion: entries.boolean("physical.repulsion").unwrap_or(true),
+    }
+}
+
+fn mesh(entries: &Entries, side: f64) -> Mesh {
+    Mesh {
+        grid: if entries.has("mesh.grid") { count(entries, "mesh.grid") } else { default_grid(side) },
+        assignment: choice(entries, "mesh.assignment", &ASSIGNMENTS).unwrap_or_default(),
+        influence: choice(entries, "mesh.influence", &INFLUENCES).unwrap_or_default(),
+        gradient: choice(entries, "mesh.gradient", &GRADIENTS).unwrap_or_default(),
+    }
+}
+
+fn motion(entries: &Entries) -> Motion {
+    let Motion { noise, max_step, max_displacement } = Motion::default();
+    Motion {
+        noise: choice(entries, "motion.noise", &NOISES).unwrap_or(noise),
+        max_step: entries.real("motion.max_step").unwrap_or(max_step),
+        max_displacement: entries.real("motion.max_displacement").unwrap_or(max_displacement),
+    }
+}
+
+fn start(entries: &Entries, word: &str) -> Start {
+    let small = |name| entries.integer(name).and_then(|value| u32::try_from(value).ok()).unwrap_or_default();
+    let length = |name| entries.real(name).unwrap_or_default();
+    match word {
+        "disc" => Start::Disc { radius: length("start.radius") },
+        "rings" => Start::Rings {
+            rings: small("start.rings"),
+            spacing: length("start.spacing"),
+            per_ring: small("start.per_ring"),
+        },
+        "lattice" => {
+            Start::Lattice { lattice: choice(entries, "start.lattice", &LATTICES).unwrap_or_default() }
+        }
+        "file" => Start::File { path: PathBuf::from(entries.text("start.path").unwrap_or_default()) },
+        _ => Start::Random,
+    }
+}
+
+fn time(entries: &Entries, capillary_strength: f64) -> Time {
+    let default = if capillary_strength > 0.0 { DEFAULT_JEANS_TIMES } else { DEFAULT_DIFFUSION_TIMES };
+    Time { until: entries.real("time.until").unwrap_or(default) }
+}
+
+fn output(entries: &Entries) -> Output {
+    let Output { observables, trajectory, snapshots } = Output::default();
+    Output {
+        observables: entries.real("output.observables").unwrap_or(observables),
+        trajectory: entries.real("output.trajectory").unwrap_or(trajectory),
+        snapshots: entries.real("output.snapshots").unwrap_or(snapshots),
+    }
+}
+
+fn count(entries: &Entries, name: &str) -> usize {
+    entries.integer(name).and_then(|value| usize::try_from(value).ok()).unwrap_or_default()
+}
+
+fn choice<T: Copy>(entries: &Entries, name: &str, words: &[(&'static str, T)]) -> Option<T> {
+    entries.text(name).and_then(|word| meaning(words, word))
+}

@@ -1,0 +1,180 @@
+//! What must hold between the keys of a configuration, once each is in its own range.
+
+use core::f64::consts::PI;
+
+use meniscus_core::parameters::{ParameterError, SPACING_RANGE};
+
+use super::entries::Entries;
+use super::error::ConfigurationError;
+use super::keys::{key, plain};
+use super::{Configuration, Start};
+
+/// Largest fraction of an area that discs placed at random without overlap may cover: random
+/// sequential addition jams at 0.547, and slows down long before.
+pub(super) const LARGEST_RANDOM_COVERAGE: f64 = 0.5;
+
+/// Latest end of a run, R0²/D: time is held in 64 bits in units of 2⁻⁴⁰ R0²/D.
+pub(super) const LATEST_TIME: f64 = 16_777_216.0;
+
+/// Refuses a configuration whose keys do not go together; `entries` knows their places.
+pub(super) fn check(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    check_parameters(configuration, entries)?;
+    check_time_unit(configuration, entries)?;
+    check_start(configuration, entries)?;
+    check_end(configuration, entries)
+}
+
+/// A refusal of one key.
+fn refusal(
+    entries: &Entries,
+    key: &str,
+    found: impl Into<String>,
+    expected: impl Into<String>,
+) -> ConfigurationError {
+    ConfigurationError::Value {
+        place: entries.place(key),
+        key: key.to_owned(),
+        found: found.into(),
+        expected: expected.into(),
+    }
+}
+
+/// Asks the core.
+fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    let Err(error) = configuration.parameters().validate() else { return Ok(()) };
+    let system = &configuration.system;
+    let of_system = |leaf: &str, value: f64, unit: &str| {
+        let reduced = format!("system.{leaf}");
+        let expected = key(&reduced).map_or_else(String::new, |key| key.accepted());
+        if configuration.physical.is_some() {
+            let name = format!("physical.{leaf}");
+            let found = match entries.real(&name) {
+                Some(metres) if unit == "R0" => format!("{} m, which is {} R0", plain(metres), plain(value)),
+                _ => format!("{} {unit}", plain(value)),
+            };
+            refusal(entries, &name, found, expected)
+        } else {
+            refusal(entries, &reduced, plain(value), expected)
+        }
+    };
+    let of_grid = || {
+        let (finest, coarsest) = SPACING_RANGE;
+        let grid = configuration.mesh.grid;
+        refusal(
+            entries,
+            "mesh.grid",
+            format!("{grid} nodes over {} R0", plain(system.side)),
+            format!("a spacing of {} to {} R0", plain(finest), plain(coarsest)),
+        )
+    };
+    let of_key = |name: &str, found: String| {
+        refusal(entries, name, found, key(name).map_or_else(String::new, |key| key.accepted()))
+    };
+    Err(match error {
+        ParameterError::Side | ParameterError::SideTooLarge | ParameterError::SideTooSmall => {
+            of_system("box", system.side, "R0")
+        }
+        ParameterError::CapillaryStrength => {
+            of_system("capillary_strength", system.capillary_strength, "kBT")
+        }
+        ParameterError::CapillaryLength => of_system("capillary_length", system.capillary_length, "R0"),
+        ParameterError::Grid => of_key("mesh.grid", configuration.mesh.grid.to_string()),
+        ParameterError::GridTooCoarse | ParameterError::GridTooFine => of_grid(),
+        ParameterError::MaxStep => of_key("motion.max_step", plain(configuration.motion.max_step)),
+        ParameterError::MaxDisplacement => {
+            of_key("motion.max_displacement", plain(configuration.motion.max_displacement))
+        }
+        ParameterError::Seed => of_key("seed", configuration.seed.to_string()),
+    })
+}
+
+/// The unit of time must be a number of seconds.
+fn check_time_unit(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    let Some(seconds) = configuration.seconds_per_time_unit() else { return Ok(()) };
+    if seconds.is_finite() && seconds > 0.0 {
+        return Ok(());
+    }
+    Err(refusal(
+        entries,
+        "physical.mobility",
+        format!("a unit of time R0^2/(kBT*Gamma) of {} s", plain(seconds)),
+        "radius, temperature and mobility that give a finite one",
+    ))
+}
+
+/// The discs must fit where they start.
+fn check_start(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    let system = &configuration.system;
+    let table = if configuration.physical.is_some() { "physical" } else { "system" };
+    let particles_key = format!("{table}.particles");
+    let count = system.particles as f64;
+    let crowded = |coverage: f64, place: &str, most: f64| {
+        refusal(
+            entries,
+            &particles_key,
+            format!("{} discs, which cover {coverage:.3} of {place}", system.particles),
+            format!(
+                "a coverage of at most {LARGEST_RANDOM_COVERAGE} ({} discs) to place them at random without \
+                 overlap",
+                most.floor()
+            ),
+        )
+    };
+    let beyond_box = |name: &str, radius: f64| {
+        refusal(
+            entries,
+            name,
+            format!("a patch of radius {} R0", plain(radius)),
+            format!("one within half the box, {} R0", plain(system.side / 2.0)),
+        )
+    };
+    match configuration.start {
+        Start::Random => {
+            let area = system.side * system.side;
+            let coverage = PI * count / area;
+            if coverage > LARGEST_RANDOM_COVERAGE {
+                return Err(crowded(coverage, "the box", LARGEST_RANDOM_COVERAGE * area / PI));
+            }
+        }
+        Start::Disc { radius } => {
+            if radius > system.side / 2.0 {
+                return Err(beyond_box("start.radius", radius));
+            }
+            // Centres lie within the radius, so discs cover one R0 more.
+            let reach_squared = (radius + 1.0) * (radius + 1.0);
+            let coverage = count / reach_squared;
+            if coverage > LARGEST_RANDOM_COVERAGE {
+                return Err(crowded(coverage, "the disc", LARGEST_RANDOM_COVERAGE * reach_squared));
+            }
+        }
+        Start::Rings { rings, spacing, per_ring } => {
+            let right = 1 + u64::from(per_ring) * (u64::from(rings) * (u64::from(rings) + 1) / 2);
+            if system.particles as u64 != right {
+                let found = system.particles.to_string();
+                let expected =
+                    format!("{right}, the number in {rings} rings of {per_ring}*n discs and the central one");
+                return Err(refusal(entries, &particles_key, found, expected));
+            }
+            let radius = f64::from(rings) * spacing;
+            if radius >= system.side / 2.0 {
+                return Err(beyond_box("start.spacing", radius));
+            }
+        }
+        Start::Lattice { .. } | Start::File { .. } => {}
+    }
+    Ok(())
+}
+
+/// The end must be a time that can be held.
+fn check_end(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    if configuration.end_time() <= LATEST_TIME {
+        return Ok(());
+    }
+    let found = match configuration.jeans_time() {
+        Some(jeans_time) => {
+            format!("{} Jeans' times of {} R0^2/D", plain(configuration.time.until), plain(jeans_time))
+        }
+        None => plain(configuration.time.until),
+    };
+    Err(refusal(entries, "time.until", found, format!("an end by {LATEST_TIME} R0^2/D")))
+}
