@@ -336,6 +336,23 @@ impl Dynamics {
         });
     }
 
+    /// Computes the forces and tells how long the next step will be (unit 2⁻⁴⁰ R0²/D) and the largest force that
+    /// decides it (rounded up, unit 2⁻²⁴ kBT/R0). Looking changes nothing.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state is not touched either way.
+    pub fn next_step<T: LineTransform>(
+        &self,
+        transform: &T,
+        memory: &mut Memory<'_>,
+    ) -> Result<(u64, u64), StepError> {
+        self.forces(transform, memory)?;
+        let discs = memory.discs(self.count);
+        let largest_force = largest_force(discs.force_x, discs.force_y);
+        let length = self.limits.step_length(largest_force).ok_or(StepError::StepTooShort)?;
+        Ok((length, largest_force))
+    }
+
     /// Does one step.
     ///
     /// # Errors
@@ -345,15 +362,12 @@ impl Dynamics {
         transform: &T,
         memory: &mut Memory<'_>,
     ) -> Result<Step, StepError> {
-        self.forces(transform, memory)?;
-        let discs = memory.discs(self.count);
-        let largest_force = largest_force(discs.force_x, discs.force_y);
-        let length = self.limits.step_length(largest_force).ok_or(StepError::StepTooShort)?;
+        let (length, largest_force) = self.next_step(transform, memory)?;
         let clock = Clock {
             step: self.clock.step.checked_add(1).ok_or(StepError::TimeOverflow)?,
             time: self.clock.time.checked_add(length).ok_or(StepError::TimeOverflow)?,
         };
-        self.find_displacements(length, discs)?;
+        self.find_displacements(length, memory.discs(self.count))?;
         displace_all(memory.discs(self.count));
         self.clock = clock;
         Ok(Step { length, largest_force, clock })

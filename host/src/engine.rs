@@ -46,7 +46,9 @@ fn init_message(error: InitError) -> String {
         InitError::GridMismatch | InitError::Memory => "the memory does not fit the mesh".into(),
         InitError::NoParticles => "there is no disc; at least 1 is needed".into(),
         InitError::TooManyParticles { capacity } => format!("too many discs; at most {capacity} fit"),
-        InitError::Id { id } => format!("id {id} is out of range or given twice; ids are 0 to n − 1, each once"),
+        InitError::Id { id } => {
+            format!("id {id} is out of range or given twice; ids are 0 to n − 1, each once")
+        }
     }
 }
 
@@ -140,6 +142,17 @@ impl Engine {
         let clock = self.clock();
         let (dynamics, mut memory) = self.parts();
         dynamics.step(&AnySize, &mut memory).map_err(|error| EngineError::Step(error, clock))
+    }
+
+    /// How long the next step will be (unit 2⁻⁴⁰ R0²/D) and the largest force that decides it (rounded up, unit
+    /// 2⁻²⁴ kBT/R0). Looking changes nothing.
+    ///
+    /// # Errors
+    /// [`EngineError::Step`] as the step itself would give it.
+    pub fn next_step(&mut self) -> Result<(u64, u64), EngineError> {
+        let clock = self.clock();
+        let (dynamics, mut memory) = self.parts();
+        dynamics.next_step(&AnySize, &mut memory).map_err(|error| EngineError::Step(error, clock))
     }
 
     /// The forces on all discs at their present positions, in the order of ids, kBT/R0.

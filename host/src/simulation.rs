@@ -1,0 +1,107 @@
+//! A configuration brought to life: its start, made or read, in an engine.
+//!
+//! ```
+//! use meniscus::configuration::Configuration;
+//! use meniscus::simulation::Simulation;
+//!
+//! let overrides = ["system.particles=100".to_owned(), "system.box=100".to_owned()];
+//! let configuration = Configuration::from_preset("table-1", &overrides)?;
+//! let mut simulation = Simulation::new(configuration)?;
+//! simulation.engine.step()?;
+//! assert_eq!(simulation.engine.count(), 100);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use crate::configuration::{Configuration, Lattice, Start};
+use crate::engine::{Engine, EngineError};
+use crate::files::InitialState;
+use crate::start::{self, StartError};
+use meniscus_core::dynamics::Clock;
+use meniscus_core::torus::{Position, Torus, TorusError};
+use meniscus_core::units::{TIME_UNITS, time_from_units};
+use thiserror::Error;
+
+/// Why a configuration could not be brought to life.
+#[derive(Debug, Error)]
+pub enum SimulationError {
+    /// The discs could not be placed or read.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The engine refused them.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The side is no side.
+    #[error("system.box: the side {side} R0 is out of range")]
+    Side {
+        /// The side, R0.
+        side: f64,
+    },
+}
+
+/// A run in the making.
+#[derive(Debug)]
+pub struct Simulation {
+    /// What it was made from.
+    pub configuration: Configuration,
+    /// The box.
+    pub torus: Torus,
+    /// The discs.
+    pub engine: Engine,
+}
+
+impl Simulation {
+    /// Places the discs as the configuration says. A start from a state file also takes its step and time: the run
+    /// goes on where that state was.
+    ///
+    /// # Errors
+    /// A [`SimulationError`].
+    pub fn new(configuration: Configuration) -> Result<Self, SimulationError> {
+        let torus = torus(&configuration)?;
+        let InitialState { positions, step, time } = initial_state(&configuration, &torus)?;
+        let engine = Engine::new(&configuration.parameters(), Clock { step, time }, &positions)?;
+        Ok(Self { configuration, torus, engine })
+    }
+
+    /// The end of the run, unit 2⁻⁴⁰ R0²/D, rounded up.
+    #[must_use]
+    pub fn end(&self) -> u64 {
+        time_units(self.configuration.end_time())
+    }
+
+    /// The present time in Jeans' times, if there is attraction.
+    #[must_use]
+    pub fn time_over_jeans(&self) -> Option<f64> {
+        self.configuration.jeans_time().map(|jeans| time_from_units(self.engine.clock().time) / jeans)
+    }
+}
+
+/// A time in R0²/D as units of 2⁻⁴⁰ R0²/D, rounded up.
+#[must_use]
+pub fn time_units(time: f64) -> u64 {
+    (time * TIME_UNITS as f64).ceil() as u64
+}
+
+/// The box of a configuration.
+///
+/// # Errors
+/// [`SimulationError::Side`].
+pub fn torus(configuration: &Configuration) -> Result<Torus, SimulationError> {
+    let side = configuration.system.side;
+    Torus::new(side).map_err(|_: TorusError| SimulationError::Side { side })
+}
+
+/// Where the discs start, and when.
+fn initial_state(configuration: &Configuration, torus: &Torus) -> Result<InitialState, StartError> {
+    let count = configuration.system.particles;
+    let at_start = |positions: Vec<Position>| InitialState { positions, step: 0, time: 0 };
+    match configuration.start {
+        Start::Random => start::random(torus, count, configuration.seed).map(at_start),
+        Start::Disc { radius } => start::disc(torus, count, radius, configuration.seed).map(at_start),
+        Start::Rings { rings, spacing, per_ring } => {
+            start::rings(torus, rings, per_ring, spacing).map(at_start)
+        }
+        Start::Lattice { lattice: Lattice::Square } => start::square_lattice(count).map(at_start),
+        Start::Lattice { lattice: Lattice::Hexagonal } => start::hexagonal_lattice(count).map(at_start),
+        Start::File { ref path } => start::file(torus, path, count),
+    }
+}
