@@ -132,7 +132,10 @@ fn refuse_missing(entries: &Entries, start: &StartWord) -> Result<(), Configurat
     let described = |name: &&str| {
         key(name).map_or_else(String::new, |key| format!("`{}` ({}: {})", key.name, key.help, key.accepted()))
     };
-    let keys = required.iter().map(described).collect::<Vec<_>>().join(", ");
+    let mut keys = required.iter().map(described).collect::<Vec<_>>().join(", ");
+    if entries.table("system").is_none() && entries.table("physical").is_none() {
+        keys.push_str("; or the system in SI, as `physical`");
+    }
     Err(ConfigurationError::Missing { place: entries.whole(), keys })
 }
 

@@ -7,7 +7,7 @@ use meniscus_core::parameters::{ParameterError, SPACING_RANGE};
 use super::entries::Entries;
 use super::error::ConfigurationError;
 use super::keys::{key, plain};
-use super::{Configuration, Start};
+use super::{Attraction, Configuration, Start};
 
 /// Largest fraction of an area that discs placed at random without overlap may cover: random
 /// sequential addition jams at 0.547, and slows down long before.
@@ -39,6 +39,11 @@ fn refusal(
     }
 }
 
+/// A derived number to six digits.
+fn rounded(value: f64) -> String {
+    format!("{value:.5e}").parse().map_or_else(|_| plain(value), plain)
+}
+
 /// Asks the core.
 fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
     let Err(error) = configuration.parameters().validate() else { return Ok(()) };
@@ -46,16 +51,17 @@ fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<
     let of_system = |leaf: &str, value: f64, unit: &str| {
         let reduced = format!("system.{leaf}");
         let expected = key(&reduced).map_or_else(String::new, |key| key.accepted());
-        if configuration.physical.is_some() {
-            let name = format!("physical.{leaf}");
-            let found = match entries.real(&name) {
-                Some(metres) if unit == "R0" => format!("{} m, which is {} R0", plain(metres), plain(value)),
-                _ => format!("{} {unit}", plain(value)),
-            };
-            refusal(entries, &name, found, expected)
-        } else {
-            refusal(entries, &reduced, plain(value), expected)
+        let Some(physical) = &configuration.physical else {
+            return refusal(entries, &reduced, plain(value), expected);
+        };
+        let mut name = format!("physical.{leaf}");
+        if let (Attraction::Force { .. }, "capillary_strength") = (physical.attraction, leaf) {
+            name = "physical.force".to_owned();
         }
+        let given = entries.real(&name).map_or_else(String::new, plain);
+        let given_unit = key(&name).map_or("", |key| key.unit);
+        let found = format!("{given} {given_unit}, which makes {} {unit}", rounded(value));
+        refusal(entries, &name, found, expected)
     };
     let of_grid = || {
         let (finest, coarsest) = SPACING_RANGE;
@@ -63,7 +69,7 @@ fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<
         refusal(
             entries,
             "mesh.grid",
-            format!("{grid} nodes over {} R0", plain(system.side)),
+            format!("{grid} nodes over {} R0", rounded(system.side)),
             format!("a spacing of {} to {} R0", plain(finest), plain(coarsest)),
         )
     };
@@ -97,7 +103,7 @@ fn check_time_unit(configuration: &Configuration, entries: &Entries) -> Result<(
     Err(refusal(
         entries,
         "physical.mobility",
-        format!("a unit of time R0^2/(kBT*Gamma) of {} s", plain(seconds)),
+        format!("a unit of time R0^2/(kBT*Gamma) of {} s", rounded(seconds)),
         "radius, temperature and mobility that give a finite one",
     ))
 }
@@ -120,12 +126,12 @@ fn check_start(configuration: &Configuration, entries: &Entries) -> Result<(), C
             ),
         )
     };
-    let beyond_box = |name: &str, radius: f64| {
+    let beyond_box = |name: &str, radius: f64, relation: &str| {
         refusal(
             entries,
             name,
-            format!("a patch of radius {} R0", plain(radius)),
-            format!("one within half the box, {} R0", plain(system.side / 2.0)),
+            format!("a patch of radius {} R0", rounded(radius)),
+            format!("one {relation} half the box, {} R0", rounded(system.side / 2.0)),
         )
     };
     match configuration.start {
@@ -138,7 +144,7 @@ fn check_start(configuration: &Configuration, entries: &Entries) -> Result<(), C
         }
         Start::Disc { radius } => {
             if radius > system.side / 2.0 {
-                return Err(beyond_box("start.radius", radius));
+                return Err(beyond_box("start.radius", radius, "of at most"));
             }
             // Centres lie within the radius, so discs cover one R0 more.
             let reach_squared = (radius + 1.0) * (radius + 1.0);
@@ -157,7 +163,7 @@ fn check_start(configuration: &Configuration, entries: &Entries) -> Result<(), C
             }
             let radius = f64::from(rings) * spacing;
             if radius >= system.side / 2.0 {
-                return Err(beyond_box("start.spacing", radius));
+                return Err(beyond_box("start.spacing", radius, "below"));
             }
         }
         Start::Lattice { .. } | Start::File { .. } => {}
@@ -172,7 +178,7 @@ fn check_end(configuration: &Configuration, entries: &Entries) -> Result<(), Con
     }
     let found = match configuration.jeans_time() {
         Some(jeans_time) => {
-            format!("{} Jeans' times of {} R0^2/D", plain(configuration.time.until), plain(jeans_time))
+            format!("{} Jeans' times of {} R0^2/D", plain(configuration.time.until), rounded(jeans_time))
         }
         None => plain(configuration.time.until),
     };

@@ -269,7 +269,14 @@ fn describe(item: &Item) -> String {
 fn syntax_error(name: &str, text: &str, error: &TomlError) -> ConfigurationError {
     let start = error.span().map_or(text.len(), |span| span.start);
     let (line, column) = line_and_column(text, start);
-    let reason = error.message().split('\n').collect::<Vec<_>>().join(", ");
+    let piece = error.span().and_then(|span| text.get(span)).unwrap_or_default();
+    let reason = match error.message() {
+        "duplicate key" => format!("duplicate key `{piece}`"),
+        "integer number overflowed" => {
+            format!("{piece} is beyond the whole numbers of TOML, which end at {}", i64::MAX)
+        }
+        message => message.split('\n').collect::<Vec<_>>().join(", "),
+    };
     ConfigurationError::Syntax { file: name.to_owned(), line, column, reason }
 }
 
