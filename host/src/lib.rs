@@ -1,5 +1,11 @@
-//! The std host of Meniscus.
+//! The std host of Meniscus: configurations, initial states, files, runs, observables, and the command line.
+//!
+//! The engine proper is [`meniscus_core`]; everything here feeds it or looks at it, and nothing that looks can
+//! change a run. A run's way through this crate: [`configuration`] → [`start`] → [`simulation`] →
+//! [`run`], which drives the [`engine`] and writes [`files`], [`observables`], [`snapshot`]s and [`golden`] records;
+//! [`verification`] repeats a golden run.
 
+pub mod commands;
 pub mod configuration;
 pub mod engine;
 pub mod files;
@@ -10,3 +16,4 @@ pub mod simulation;
 pub mod snapshot;
 pub mod start;
 pub mod theory;
+pub mod verification;

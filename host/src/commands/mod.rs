@@ -1,0 +1,135 @@
+//! The command line: one file a command, each from parsed arguments to an exit code.
+//!
+//! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error).
+
+mod digest;
+mod forces;
+mod presets;
+mod progress;
+mod run;
+mod verify;
+
+use crate::configuration::{Configuration, ConfigurationError};
+use crate::engine::EngineError;
+use crate::files::FileError;
+use crate::golden::GoldenError;
+use crate::run::RunError;
+use crate::simulation::SimulationError;
+use clap::{Args, Parser, Subcommand};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use thiserror::Error;
+
+/// Brownian dynamics of discs at a fluid interface, with the same bits everywhere.
+#[derive(Debug, Parser)]
+#[command(name = "meniscus", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a simulation: by default Table I of the paper to five Jeans' times.
+    Run(run::Arguments),
+    /// Print the force on every disc of a file of positions: `id,x,y,fx,fy` in R0 and kBT/R0.
+    Forces(forces::Arguments),
+    /// Print length and SHA-256 of a state: of a run's directory, or of a file of positions.
+    Digest(digest::Arguments),
+    /// Repeat a golden run and compare.
+    Verify(verify::Arguments),
+    /// List the presets, or print one as a complete configuration.
+    Presets(presets::Arguments),
+}
+
+/// Which configuration, with what changed.
+#[derive(Debug, Args)]
+struct Source {
+    /// A configuration file, or the name of a preset (see `meniscus presets`).
+    #[arg(value_name = "CONFIG|PRESET", default_value = "table-1")]
+    configuration: String,
+    #[command(flatten)]
+    overrides: Overrides,
+}
+
+/// Changes to a configuration.
+#[derive(Debug, Args)]
+struct Overrides {
+    /// Set a key of the configuration, for example `--set mesh.assignment=cic`.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Why a command failed.
+#[derive(Debug, Error)]
+enum CommandError {
+    #[error(transparent)]
+    Configuration(#[from] ConfigurationError),
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error(transparent)]
+    Golden(#[from] GoldenError),
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("Ctrl-C cannot be caught: {0}")]
+    Signal(#[from] ctrlc::Error),
+    #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]
+    NoState(PathBuf),
+    #[error("{}: {found}; a golden file needs at least one record", path.display())]
+    GoldenRecords { path: PathBuf, found: &'static str },
+    #[error("standard output cannot be written: {0}")]
+    Output(#[from] std::io::Error),
+}
+
+/// How a command that did not fail ended.
+enum Verdict {
+    Ok,
+    Different,
+}
+
+/// Parses the command line and does what it says.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let output = &mut std::io::stdout().lock();
+    let result = match &arguments.command {
+        Command::Run(arguments) => run::run(arguments, output),
+        Command::Forces(arguments) => forces::run(arguments, output),
+        Command::Digest(arguments) => digest::run(arguments, output),
+        Command::Verify(arguments) => verify::run(arguments, output),
+        Command::Presets(arguments) => presets::run(arguments, output),
+    };
+    match result.and_then(|verdict| output.flush().map(|()| verdict).map_err(CommandError::from)) {
+        Ok(Verdict::Ok) => ExitCode::SUCCESS,
+        Ok(Verdict::Different) => ExitCode::from(1),
+        // Whoever reads our output has seen enough.
+        Err(CommandError::Output(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            say(&format!("error: {error}"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Writes a line to standard error; nobody can be told if that fails.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+impl Source {
+    /// Reads the configuration, `more` being further overrides.
+    fn read(&self, more: impl IntoIterator<Item = String>) -> Result<Configuration, ConfigurationError> {
+        let overrides: Vec<String> = self.overrides.set.iter().cloned().chain(more).collect();
+        Configuration::from_argument(&self.configuration, &overrides)
+    }
+
+    /// The configuration's name, for a directory.
+    fn name(&self) -> &str {
+        Path::new(&self.configuration).file_stem().and_then(|name| name.to_str()).unwrap_or("run")
+    }
+}

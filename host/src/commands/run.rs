@@ -1,0 +1,138 @@
+//! `meniscus run [CONFIG|PRESET] …`
+
+use super::progress::Progress;
+use super::{CommandError, Source, Verdict, say};
+use crate::run::{GoldenRequest, Outcome, Run, Stop};
+use crate::simulation::Simulation;
+use meniscus_core::units::time_from_units;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    source: Source,
+    /// Directory for the results; it must be new or empty. By default one below `runs`.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Seed of start and noise, 0 to 2⁶³ − 1.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// When to end, in Jeans' times (in R0²/D without attraction).
+    #[arg(long, value_name = "T")]
+    until: Option<f64>,
+    /// Stop after this many seconds of wall time, the state written.
+    #[arg(long, value_name = "S", value_parser = wall_time)]
+    max_wall: Option<Duration>,
+    /// Threads; the scalar engine runs on one.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1), default_value = "1")]
+    threads: u32,
+    /// Engine.
+    #[arg(long, value_parser = ["core"], default_value = "core")]
+    engine: String,
+    /// Where to write the golden file, instead of `golden.toml` in the directory.
+    #[arg(long, value_name = "FILE")]
+    golden: Option<PathBuf>,
+    /// Steps between golden records.
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..), default_value = "1000")]
+    every: u64,
+}
+
+pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
+    let seed = arguments.seed.map(|seed| format!("seed={seed}"));
+    let until = arguments.until.map(|until| format!("time.until={until:?}"));
+    let configuration = arguments.source.read(seed.into_iter().chain(until))?;
+    let directory = match &arguments.out {
+        Some(directory) => directory.clone(),
+        None => free_directory(arguments.source.name(), configuration.seed),
+    };
+    let golden = GoldenRequest {
+        path: arguments.golden.clone().unwrap_or_else(|| directory.join("golden.toml")),
+        every: arguments.every,
+    };
+    let simulation = Simulation::new(configuration)?;
+    announce(&simulation, &directory);
+    let watch = stop_signal()?;
+    let mut progress = Progress::new(&simulation);
+    let run = Run::create(simulation, &directory, Some(golden))?;
+    let begun = Instant::now();
+    let outcome = run.to_end(|simulation| {
+        progress.show(simulation);
+        if watch.load(Ordering::Relaxed) {
+            return Some(Stop::Interrupted);
+        }
+        arguments.max_wall.filter(|&limit| begun.elapsed() >= limit).map(|_| Stop::WallTime)
+    });
+    progress.finish();
+    conclude(&outcome?, output)?;
+    Ok(Verdict::Ok)
+}
+
+/// Tells what is about to be run.
+fn announce(simulation: &Simulation, directory: &Path) {
+    let configuration = &simulation.configuration;
+    let system = &configuration.system;
+    say(&format!(
+        "{} discs in a box of {} R0, V0 = {} kBT, λ = {} R0, mesh {}², seed {}",
+        system.particles,
+        system.side,
+        system.capillary_strength,
+        system.capillary_length,
+        configuration.mesh.grid,
+        configuration.seed
+    ));
+    if let Some(jeans) = configuration.jeans_time() {
+        let seconds = configuration.seconds_per_time_unit().map(|unit| format!(" = {:.0} s", jeans * unit));
+        say(&format!("Jeans' time T = {jeans:.4} R0²/D{}", seconds.unwrap_or_default()));
+    }
+    say(&format!("results in {}", directory.display()));
+}
+
+/// Tells how the run ended.
+fn conclude(outcome: &Outcome, output: &mut impl Write) -> std::io::Result<()> {
+    let directory = outcome.directory.display();
+    if let Some(stop) = outcome.stop {
+        let why = match stop {
+            Stop::Interrupted => "interrupted",
+            Stop::WallTime => "the wall time is over",
+        };
+        say(&format!(
+            "{why}; to go on: meniscus run {directory}/config.toml --set start.kind=file \
+             --set start.path={directory}/final.state"
+        ));
+    }
+    writeln!(
+        output,
+        "step {}, t = {} R0²/D, {} bytes, digest {}",
+        outcome.clock.step,
+        time_from_units(outcome.clock.time),
+        outcome.digest.length,
+        outcome.digest
+    )
+}
+
+/// A flag that Ctrl-C and termination signals raise.
+fn stop_signal() -> Result<Arc<AtomicBool>, CommandError> {
+    let raised = Arc::new(AtomicBool::new(false));
+    let handle = Arc::clone(&raised);
+    ctrlc::set_handler(move || handle.store(true, Ordering::Relaxed))?;
+    Ok(raised)
+}
+
+/// The first of `runs/NAME-seed-N`, `runs/NAME-seed-N-2`, … that does not exist.
+fn free_directory(name: &str, seed: u64) -> PathBuf {
+    let base = format!("{name}-seed-{seed}");
+    let names = std::iter::once(base.clone()).chain((2_u64..).map(|number| format!("{base}-{number}")));
+    let mut paths = names.map(|name| Path::new("runs").join(name));
+    paths.find(|path| !path.exists()).unwrap_or_else(|| Path::new("runs").join(base))
+}
+
+fn wall_time(text: &str) -> Result<Duration, String> {
+    text.parse()
+        .ok()
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a number of seconds of at least 0".into())
+}

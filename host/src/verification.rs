@@ -1,0 +1,73 @@
+//! Repeating a golden run.
+//!
+//! ```
+//! use meniscus::configuration::Configuration;
+//! use meniscus::golden::Golden;
+//! use meniscus::simulation::Simulation;
+//! use meniscus::verification::compare;
+//!
+//! let overrides = ["system.particles=10".to_owned(), "mesh.grid=64".to_owned()];
+//! let mut simulation = Simulation::new(Configuration::from_preset("table-1", &overrides)?)?;
+//! let mut golden = Golden::new(simulation.configuration.to_toml());
+//! simulation.engine.step()?;
+//! golden.record(simulation.engine.state().digest_by_field());
+//!
+//! let mut again = Simulation::new(Configuration::from_text("golden", &golden.configuration, &[])?)?;
+//! assert_eq!(compare(&golden, &mut again.engine, |_| ())?, None);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use crate::engine::{Engine, EngineError};
+use crate::golden::{Difference, Golden, Record};
+use crate::simulation::{Simulation, SimulationError};
+use meniscus_core::torus::Position;
+
+/// Runs `engine` from its state to the last record of `golden` and compares at each record; `report` sees the
+/// records that agree.
+///
+/// Returns the first difference, at which it stops.
+///
+/// # Errors
+/// An [`EngineError`] when a step is refused.
+pub fn compare(
+    golden: &Golden,
+    engine: &mut Engine,
+    mut report: impl FnMut(&Record),
+) -> Result<Option<Difference>, EngineError> {
+    for record in &golden.records {
+        while engine.clock().step < record.step {
+            engine.step()?;
+        }
+        let found = Record::from(engine.state().digest_by_field());
+        if let Some(difference) = record.difference(&found) {
+            return Ok(Some(difference));
+        }
+        report(record);
+    }
+    Ok(None)
+}
+
+/// Runs the simulation twice, with the discs stored in order and in reverse, up to step `last`, comparing after
+/// every step: by contract no step differs.
+///
+/// # Errors
+/// A [`SimulationError`] when the run cannot be set up or a step is refused.
+pub fn compare_storage_orders(
+    simulation: Simulation,
+    last: u64,
+) -> Result<Option<Difference>, SimulationError> {
+    let Simulation { configuration, mut engine, .. } = simulation;
+    let positions: Vec<(u32, Position)> = (0..).zip(engine.positions()).collect();
+    let reversed = positions.into_iter().rev();
+    let mut other = Engine::with_ids(&configuration.parameters(), engine.clock(), reversed)?;
+    while engine.clock().step < last {
+        engine.step()?;
+        other.step()?;
+        let [expected, found] =
+            [&engine, &other].map(|engine| Record::from(engine.state().digest_by_field()));
+        if let Some(difference) = expected.difference(&found) {
+            return Ok(Some(difference));
+        }
+    }
+    Ok(None)
+}
