@@ -1,3 +1,15 @@
 //! Shared parts of the tests of Meniscus: independent references, named cases, tolerances.
+//!
+//! With `MENISCUS_LONG_TESTS=1` in the environment, tests that gain from it take longer and look closer; use
+//! `--release` then.
 
+pub mod arrays;
 pub mod reference;
+pub mod states;
+pub mod statistics;
+pub mod tolerances;
+
+/// Whether the long version of the tests was asked for.
+pub fn long_tests() -> bool {
+    std::env::var_os("MENISCUS_LONG_TESTS").is_some_and(|value| value == "1")
+}
