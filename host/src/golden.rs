@@ -1,13 +1,14 @@
 //! Golden files: the length and digest of a run's state at chosen steps, with the configuration that gives them.
 //!
-//! A golden file is TOML: `format`, the `version` of Meniscus that minted it, the whole `configuration` as text, and
+//! A golden file is TOML: `format`, the `version` of Meniscus that minted it and the `reason`, the whole
+//! `configuration` as text, and
 //! `records`, each `[step, time, length, digest of the state, digest of x, digest of y]`, time in units of
 //! 2⁻⁴⁰ R0²/D. Digests are SHA-256; those of x and y tell which part of a state differs.
 //!
 //! ```
 //! use meniscus::golden::Golden;
 //!
-//! let mut golden = Golden::new("version = 1\n".into());
+//! let mut golden = Golden::new("version = 1\n".into(), "an example");
 //! let text = golden.to_toml();
 //! assert_eq!(Golden::from_toml("golden.toml", &text)?.configuration, golden.configuration);
 //! # Ok::<(), meniscus::golden::GoldenError>(())
@@ -168,6 +169,8 @@ impl Record {
 pub struct Golden {
     /// The version of Meniscus that minted it.
     pub version: String,
+    /// Why it was minted.
+    pub reason: String,
     /// The configuration, TOML.
     pub configuration: String,
     /// Records in the order of steps.
@@ -177,8 +180,9 @@ pub struct Golden {
 impl Golden {
     /// A golden file of this version of Meniscus without records.
     #[must_use]
-    pub fn new(configuration: String) -> Self {
-        Self { version: env!("CARGO_PKG_VERSION").into(), configuration, records: Vec::new() }
+    pub fn new(configuration: String, reason: &str) -> Self {
+        let version = env!("CARGO_PKG_VERSION").into();
+        Self { version, reason: reason.into(), configuration, records: Vec::new() }
     }
 
     /// Adds a record, unless the step has one already.
@@ -194,6 +198,7 @@ impl Golden {
         let mut document = DocumentMut::new();
         document["format"] = value(FORMAT);
         document["version"] = value(self.version.clone());
+        document["reason"] = value(self.reason.clone());
         document["configuration"] = Item::Value(literal(&self.configuration));
         let mut records = Array::new();
         for record in &self.records {
@@ -241,6 +246,7 @@ impl Golden {
         });
         Ok(Self {
             version: text("version")?,
+            reason: text("reason")?,
             configuration: text("configuration")?,
             records: records.collect::<Result<_, _>>()?,
         })

@@ -8,7 +8,7 @@
 //!
 //! let overrides = ["system.particles=10".to_owned(), "mesh.grid=64".to_owned()];
 //! let mut simulation = Simulation::new(Configuration::from_preset("table-1", &overrides)?)?;
-//! let mut golden = Golden::new(simulation.configuration.to_toml());
+//! let mut golden = Golden::new(simulation.configuration.to_toml(), "an example");
 //! simulation.engine.step()?;
 //! golden.record(simulation.engine.state().digest_by_field());
 //!

@@ -124,7 +124,7 @@ impl Run {
             .unwrap_or_else(|| GoldenRequest { path: directory.join("golden.toml"), every: GOLDEN_INTERVAL });
         Ok(Self {
             directory: Directory::create(directory, &simulation)?,
-            golden: Golden::new(configuration.to_toml()),
+            golden: Golden::new(configuration.to_toml(), "a run"),
             golden_request,
             observables: schedule(observables),
             trajectory: schedule(trajectory),
