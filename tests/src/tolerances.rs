@@ -26,7 +26,7 @@ pub const MESH_FIELD: f64 = 1e-6;
 /// Mesh forces in a turned, mirrored or shifted (by whole mesh cells) system against the turned, mirrored or
 /// shifted forces, rms over rms: the same sums in another order in binary32; at ties of the nearest node a
 /// remainder of 2⁻²⁰ discs may change its node.
-pub const SYMMETRY: f64 = 2e-6;
+pub const SYMMETRY: f64 = 1e-6;
 
 /// Mesh forces at V0 times a factor that is not a power of two, relative to the largest force: rounding of the
 /// influence table, 2⁻²⁴, and of the sums.
