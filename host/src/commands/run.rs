@@ -2,6 +2,7 @@
 
 use super::progress::Progress;
 use super::{CommandError, Source, Verdict, say};
+use crate::configuration::{Configuration, Start};
 use crate::run::{GoldenRequest, Outcome, Run, Stop};
 use crate::simulation::Simulation;
 use meniscus_core::units::time_from_units;
@@ -55,6 +56,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
     };
     let simulation = Simulation::new(configuration)?;
     announce(&simulation, &directory);
+    let until = until_from_a_file(&simulation.configuration);
     let watch = stop_signal()?;
     let mut progress = Progress::new(&simulation);
     let run = Run::create(simulation, &directory, Some(golden))?;
@@ -67,7 +69,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
         arguments.max_wall.filter(|&limit| begun.elapsed() >= limit).map(|_| Stop::WallTime)
     });
     progress.finish();
-    conclude(&outcome?, output)?;
+    conclude(&outcome?, until, output)?;
     Ok(Verdict::Ok)
 }
 
@@ -91,8 +93,15 @@ fn announce(simulation: &Simulation, directory: &Path) {
     say(&format!("results in {}", directory.display()));
 }
 
-/// Tells how the run ended.
-fn conclude(outcome: &Outcome, output: &mut impl Write) -> std::io::Result<()> {
+/// The end of the run in the Jeans' time of the same discs read from a file, which is that of the whole box.
+fn until_from_a_file(configuration: &Configuration) -> f64 {
+    let mut from_file = configuration.clone();
+    from_file.start = Start::File { path: PathBuf::new() };
+    configuration.end_time() / from_file.time_scale()
+}
+
+/// Tells how the run ended; if early, how to go on to `until`.
+fn conclude(outcome: &Outcome, until: f64, output: &mut impl Write) -> std::io::Result<()> {
     let directory = outcome.directory.display();
     if let Some(stop) = outcome.stop {
         let why = match stop {
@@ -101,7 +110,7 @@ fn conclude(outcome: &Outcome, output: &mut impl Write) -> std::io::Result<()> {
         };
         say(&format!(
             "{why}; to go on: meniscus run {directory}/config.toml --set start.kind=file \
-             --set start.path={directory}/final.state"
+             --set start.path={directory}/final.state --until {until}"
         ));
     }
     writeln!(

@@ -1,0 +1,267 @@
+//! The command-line program as its users start it: a process with arguments, files, output and an exit code.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// 60 discs that collapse within a few hundred steps on a small mesh.
+const SMALL: &str = "version = 1\nseed = 7\n\
+    [system]\nparticles = 60\nbox = 48\ncapillary_strength = 10\ncapillary_length = 30\n\
+    [mesh]\ngrid = 32\n\
+    [time]\nuntil = 0.5\n\
+    [output]\nobservables = 0.05\ntrajectory = 0.1\nsnapshots = 0.5\n";
+
+fn meniscus(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_meniscus-under-test"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn start(folder: &Path, arguments: &[&str]) -> Output {
+    meniscus(folder, arguments).output().unwrap()
+}
+
+/// Starts the program, which has to succeed, and gives its standard output.
+fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let output = start(folder, arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Starts the program, which has to fail with exit code 2 and one line on standard error that holds every part.
+fn refuse(folder: &Path, arguments: &[&str], parts: &[&str]) {
+    let output = start(folder, arguments);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {errors}");
+    assert_eq!(
+        errors.lines().filter(|line| line.starts_with("error: ")).count(),
+        1,
+        "{arguments:?}: {errors}"
+    );
+    assert!(errors.lines().next_back().unwrap().starts_with("error: "), "{errors}");
+    for part in parts {
+        assert!(errors.contains(part), "{arguments:?}: {part} is not in {errors}");
+    }
+}
+
+fn folder_with_small() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), SMALL).unwrap();
+    folder
+}
+
+fn digest(folder: &Path, path: &str) -> String {
+    succeed(folder, &["digest", path])
+}
+
+#[test]
+fn a_run_leaves_everything_a_person_can_look_at() {
+    let folder = folder_with_small();
+    let said = succeed(folder.path(), &["run", "small.toml", "--out", "run"]);
+    let run = folder.path().join("run");
+    for name in ["config.toml", "final.csv", "final.state", "golden.toml", "run.json", "trajectory.xyz"] {
+        assert!(run.join(name).metadata().unwrap().len() > 0, "{name}");
+    }
+    let table = fs::read_to_string(run.join("observables.csv")).unwrap();
+    assert!(table.starts_with("step,time,time_over_jeans,dt,max_force,"), "{table}");
+    assert_eq!(table.lines().count(), 1 + 11, "rows at 0, 0.05, … 0.5 T: {table}");
+    let snapshots = ["snapshot-000.png", "snapshot-001.png"].map(|name| fs::read(run.join(name)).unwrap());
+    assert!(snapshots.iter().all(|bytes| bytes.starts_with(b"\x89PNG")));
+    let digest = digest(folder.path(), "run");
+    assert!(said.contains(digest.split_whitespace().nth(1).unwrap()), "{said} {digest}");
+    assert_eq!(digest, self::digest(folder.path(), "run/final.state"));
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(run.join("run.json")).unwrap()).unwrap();
+    assert_eq!(summary["ended"], "finished");
+    assert_eq!(summary["length"], 32 + 8 * 60);
+}
+
+#[test]
+fn the_written_configuration_repeats_the_run() {
+    let folder = folder_with_small();
+    succeed(
+        folder.path(),
+        &["run", "small.toml", "--out", "first", "--set", "mesh.assignment=cic", "--seed", "3"],
+    );
+    succeed(folder.path(), &["run", "first/config.toml", "--out", "second"]);
+    for name in
+        ["config.toml", "observables.csv", "trajectory.xyz", "final.csv", "final.state", "golden.toml"]
+    {
+        let [first, second] =
+            ["first", "second"].map(|run| fs::read(folder.path().join(run).join(name)).unwrap());
+        assert_eq!(first, second, "{name}");
+    }
+}
+
+#[test]
+fn the_order_of_discs_in_a_file_changes_nothing() {
+    let folder = folder_with_small();
+    succeed(folder.path(), &["run", "small.toml", "--out", "begin", "--until", "0.1"]);
+    let table = fs::read_to_string(folder.path().join("begin/final.csv")).unwrap();
+    let (header, rows) = table.split_once('\n').unwrap();
+    let reversed: Vec<&str> = rows.lines().rev().collect();
+    fs::write(folder.path().join("reversed.csv"), format!("{header}\n{}\n", reversed.join("\n"))).unwrap();
+    let from = |file: &str, out: &str| {
+        let path = format!("start.path={file}");
+        succeed(
+            folder.path(),
+            &["run", "small.toml", "--set", "start.kind=file", "--set", &path, "--out", out],
+        );
+        digest(folder.path(), out)
+    };
+    assert_eq!(from("begin/final.csv", "given"), from("reversed.csv", "turned"));
+}
+
+#[test]
+fn a_stopped_run_goes_on_from_its_state_bit_for_bit() {
+    let folder = folder_with_small();
+    succeed(folder.path(), &["run", "small.toml", "--out", "whole"]);
+    succeed(folder.path(), &["run", "small.toml", "--out", "part", "--until", "0.2"]);
+    let go_on = ["--set", "start.kind=file", "--set", "start.path=part/final.state"];
+    let arguments = [&["run", "small.toml", "--out", "rest"], &go_on[..]].concat();
+    succeed(folder.path(), &arguments);
+    assert_eq!(digest(folder.path(), "whole"), digest(folder.path(), "rest"));
+}
+
+#[test]
+fn looking_more_often_changes_nothing() {
+    let folder = folder_with_small();
+    succeed(folder.path(), &["run", "small.toml", "--out", "seldom"]);
+    let often = ["observables", "trajectory"].map(|what| format!("output.{what}=0.001"));
+    succeed(
+        folder.path(),
+        &["run", "small.toml", "--out", "often", "--set", &often[0], "--set", &often[1], "--every", "1"],
+    );
+    assert_eq!(digest(folder.path(), "seldom"), digest(folder.path(), "often"));
+}
+
+#[test]
+fn ctrl_c_and_the_wall_time_leave_a_state() {
+    let folder = folder_with_small();
+    let arguments = ["run", "small.toml", "--until", "1000", "--set", "output.snapshots=0", "--out", "long"];
+    let mut child = meniscus(folder.path(), &arguments).stdout(Stdio::piped()).spawn().unwrap();
+    let table = folder.path().join("long/observables.csv");
+    let begun = Instant::now();
+    while fs::read_to_string(&table).map_or(0, |text| text.lines().count()) < 3 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "the run does not begin");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert!(child.wait().unwrap().success());
+    let summary = |run: &str| fs::read_to_string(folder.path().join(run).join("run.json")).unwrap();
+    assert!(summary("long").contains("\"interrupted\""));
+    digest(folder.path(), "long");
+    succeed(folder.path(), &["run", "small.toml", "--until", "1000", "--max-wall", "0.2", "--out", "short"]);
+    assert!(summary("short").contains("\"wall time\""));
+}
+
+#[test]
+fn verify_says_equal_or_names_what_differs() {
+    let folder = folder_with_small();
+    let arguments = ["run", "small.toml", "--out", "run", "--golden", "golden.toml", "--every", "20"];
+    succeed(folder.path(), &arguments);
+    assert!(succeed(folder.path(), &["verify", "golden.toml"]).starts_with("equal: "));
+    let path = folder.path().join("golden.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    let row = text.lines().find(|line| line.starts_with("  [40,")).unwrap();
+    let digest_of_x = row.split('"').nth(3).unwrap();
+    fs::write(&path, text.replace(digest_of_x, &"0".repeat(64))).unwrap();
+    let output = start(folder.path(), &["verify", "golden.toml", "--bisect"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    for part in ["step 40: x differ", "equal up to the record of step 20", "steps 21 to 40"] {
+        assert!(said.contains(part), "{part} is not in {said}");
+    }
+}
+
+#[test]
+fn forces_are_printed_for_every_disc_of_a_file() {
+    let folder = folder_with_small();
+    fs::write(folder.path().join("two.csv"), "id,x,y\n1,22,20\n0,20,20\n").unwrap();
+    let table = succeed(folder.path(), &["forces", "small.toml", "--positions", "two.csv"]);
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(table.starts_with("id,x,y,fx,fy\n"));
+    // Positions are multiples of 48 R0 · 2⁻³².
+    assert!((rows[0][1] - 20.0).abs() < 1e-8 && (rows[1][1] - 22.0).abs() < 1e-8, "{table}");
+    // At contact the repulsion of 12 kBT/R0 exceeds the attraction of about 5.
+    assert!(rows[0][3] < -4.0 && rows[0][3] > -12.0, "{table}");
+    assert!((rows[0][3] + rows[1][3]).abs() < 1e-4 && rows[0][4].abs() < 1e-4, "{table}");
+    succeed(folder.path(), &["forces", "small.toml", "--positions", "two.csv", "--out", "forces.csv"]);
+    assert_eq!(fs::read_to_string(folder.path().join("forces.csv")).unwrap(), table);
+}
+
+#[test]
+fn a_mistake_is_answered_by_one_line_and_exit_code_2() {
+    let folder = folder_with_small();
+    let set = |key_and_value| ["run", "small.toml", "--out", "never", "--set", key_and_value];
+    let mistakes: [(&str, &[&str]); 14] = [
+        ("system.partcles=5", &["system.partcles", "system.particles"]),
+        ("system.particles=many", &["system.particles", "many"]),
+        ("system.particles=0", &["system.particles", "0"]),
+        ("system.box=-3", &["system.box", "-3"]),
+        ("system.box=nan", &["system.box", "nan"]),
+        ("system.box=100000", &["system.box", "100000", "65536"]),
+        ("system.capillary_length=0", &["system.capillary_length"]),
+        ("mesh.grid=100", &["mesh.grid", "100", "power of two"]),
+        ("mesh.assignment=cloud", &["mesh.assignment", "cloud", "cic", "tsc"]),
+        ("motion.max_step=2", &["motion.max_step", "2"]),
+        ("seed=-1", &["seed", "-1"]),
+        ("start.kind=file", &["start.path"]),
+        ("version=2", &["version", "2"]),
+        ("physical.radius=1e-5", &["physical", "system"]),
+    ];
+    for (mistake, parts) in mistakes {
+        refuse(folder.path(), &set(mistake), parts);
+    }
+    refuse(folder.path(), &["run", "tabel-1"], &["tabel-1", "table-1"]);
+    refuse(folder.path(), &["run", "no.toml"], &["no.toml"]);
+    refuse(folder.path(), &["digest", "."], &["final.state"]);
+    refuse(folder.path(), &["digest", "small.toml"], &["small.toml"]);
+    refuse(folder.path(), &["verify", "small.toml"], &["small.toml", "format"]);
+    fs::write(folder.path().join("outside.csv"), "x,y\n1,1\n2,48\n").unwrap();
+    refuse(
+        folder.path(),
+        &["forces", "small.toml", "--positions", "outside.csv"],
+        &["outside.csv", "3", "48"],
+    );
+    assert!(!folder.path().join("never").exists(), "a refused run leaves nothing");
+}
+
+#[test]
+fn a_second_run_in_a_directory_is_refused_and_loses_nothing() {
+    let folder = folder_with_small();
+    succeed(folder.path(), &["run", "small.toml", "--out", "run", "--until", "0.1"]);
+    let before = fs::read(folder.path().join("run/final.state")).unwrap();
+    refuse(folder.path(), &["run", "small.toml", "--out", "run"], &["run", "not empty", "--out"]);
+    assert_eq!(fs::read(folder.path().join("run/final.state")).unwrap(), before);
+}
+
+#[test]
+fn presets_are_listed_and_printed_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = succeed(folder.path(), &["presets"]);
+    assert_eq!(list.lines().count(), 2 + 13, "table-1 in two units and fig-2 to fig-14: {list}");
+    for name in list.lines().filter_map(|line| line.split_whitespace().next()) {
+        let text = succeed(folder.path(), &["presets", name]);
+        fs::write(folder.path().join(format!("{name}.toml")), &text).unwrap();
+        assert!(text.contains("version = 1"), "{text}");
+    }
+    refuse(folder.path(), &["presets", "fig-22"], &["fig-22", "fig-2"]);
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = meniscus(folder.path(), &["presets", "table-1"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+}
