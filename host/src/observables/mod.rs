@@ -1,1 +1,7 @@
-//! Observables.
+//! What is measured on a state. Nothing here can change the state.
+//!
+//! - [`neighbours`]: which discs are near a place; the closest pair
+//! - [`clusters`]: the clusters of Figs. 3 to 6
+
+pub mod clusters;
+pub mod neighbours;
