@@ -1,0 +1,48 @@
+//! Writing a file whole or not at all.
+//!
+//! Whoever opens the file sees what was there before or all that is there after, even when the program or
+//! the machine stops half-way.
+//!
+//! ```
+//! use meniscus::files::atomic::write_atomically;
+//!
+//! let folder = tempfile::tempdir().unwrap();
+//! let path = folder.path().join("run.json");
+//! write_atomically(&path, b"{}").unwrap();
+//! write_atomically(&path, b"{\"step\":1}").unwrap();
+//! assert_eq!(std::fs::read(&path).unwrap(), b"{\"step\":1}");
+//! ```
+
+use super::FileError;
+use std::io::Write as _;
+use std::path::Path;
+
+/// Makes `bytes` the contents of the file at `path`.
+///
+/// They go to a file of another name in the same folder, which takes the place of `path` when it is
+/// on the disk.
+///
+/// # Errors
+/// [`FileError::Write`]; what was at `path` is then still there.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    replace(path, bytes).map_err(|problem| FileError::Write { path: path.to_owned(), problem })
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    // The user's mask decides who may read the file, as for any other.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.prefix(".meniscus-").tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    // The new name is an entry of the folder, which has to reach the disk as well.
+    #[cfg(unix)]
+    std::fs::File::open(folder)?.sync_all()?;
+    Ok(())
+}

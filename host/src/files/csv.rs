@@ -1,0 +1,153 @@
+//! Positions as comma-separated values.
+//!
+//! The first line names the columns. `x` and `y` are coordinates in R0 in [0, L); `id`, if there, is the
+//! number of the disc from 0, and else rows are in id order; other columns are passed over. Lines that
+//! begin with `#` and empty lines are too. A quoted value ends on its line.
+//!
+//! Files are written with the columns `id,x,y` and as many digits as tell every position from the next, so
+//! that reading gives the same bits again.
+//!
+//! ```
+//! use meniscus::files::csv;
+//! use meniscus_core::torus::Torus;
+//!
+//! let torus = Torus::new(8.0).unwrap();
+//! let text = "# two discs\nid,x,y,colour\n1,4,4,red\n0,0.5,7.75,blue\n";
+//! let positions = csv::parse(text.as_bytes(), &torus).unwrap();
+//! assert_eq!(csv::format(&torus, &positions), "id,x,y\n0,0.5,7.75\n1,4,4\n");
+//!
+//! let error = csv::parse("x,y\n4,8\n".as_bytes(), &torus).unwrap_err();
+//! assert_eq!(error.to_string(), "line 2, column y: found `8`, expected a number of R0 in [0, 8)");
+//! ```
+
+use super::atomic::write_atomically;
+use super::identities::{Rows, coordinate};
+use super::lines::Lines;
+use super::{FileError, FormatError, read_with};
+use ::csv::{ByteRecord, ReaderBuilder, Trim};
+use meniscus_core::torus::{Position, Torus};
+use std::fmt::Write as _;
+use std::io::BufRead;
+use std::path::Path;
+
+/// Where the columns are that count.
+struct Columns {
+    id: Option<usize>,
+    x: usize,
+    y: usize,
+}
+
+/// Reads the positions in the file at `path` in id order.
+///
+/// # Errors
+/// [`FileError::Read`] naming the line and column.
+pub fn read(path: &Path, torus: &Torus) -> Result<Vec<Position>, FileError> {
+    read_with(path, |input| parse(input, torus))
+}
+
+/// Reads the positions in `input` in id order.
+///
+/// # Errors
+/// [`FormatError`] for a missing column, a value that is none, an id missing or used twice.
+pub fn parse(input: impl BufRead, torus: &Torus) -> Result<Vec<Position>, FormatError> {
+    let mut lines = Lines::new(input);
+    let mut columns = None;
+    let mut rows = Rows::default();
+    let mut record = ByteRecord::new();
+    while let Some(text) = lines.next()? {
+        if text.is_empty() || text.starts_with('#') {
+            continue;
+        }
+        split(text, &mut record)?;
+        let line = lines.number();
+        match &columns {
+            None => columns = Some(Columns::named(line, &record)?),
+            Some(columns) => columns.add_row(torus, line, &record, &mut rows)?,
+        }
+    }
+    if columns.is_none() {
+        return Err(FormatError::Whole {
+            found: "no line with the names of the columns".to_owned(),
+            expected: "id,x,y or x,y in the first line".to_owned(),
+        });
+    }
+    rows.into_positions()
+}
+
+/// The values in one line of text.
+fn split(text: &str, record: &mut ByteRecord) -> Result<(), FormatError> {
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .trim(Trim::All)
+        .buffer_capacity(text.len())
+        .from_reader(text.as_bytes());
+    reader.read_byte_record(record).map_err(|error| FormatError::Input(error.into()))?;
+    Ok(())
+}
+
+impl Columns {
+    /// Finds the columns by the names in `record`.
+    fn named(line: u64, record: &ByteRecord) -> Result<Self, FormatError> {
+        let column = |name: &str| {
+            let mut places = record.iter().enumerate().filter(|(_, value)| *value == name.as_bytes());
+            let first = places.next().map(|(place, _)| place);
+            if places.next().is_some() {
+                let found = format!("two columns {name}");
+                return Err(FormatError::Line { line, found, expected: "one".to_owned() });
+            }
+            Ok(first)
+        };
+        let coordinate = |name| {
+            column(name)?.ok_or_else(|| FormatError::Line {
+                line,
+                found: format!("no column {name}"),
+                expected: "columns named x and y, and perhaps id".to_owned(),
+            })
+        };
+        Ok(Self { id: column("id")?, x: coordinate("x")?, y: coordinate("y")? })
+    }
+
+    /// Reads one row.
+    fn add_row(
+        &self,
+        torus: &Torus,
+        line: u64,
+        record: &ByteRecord,
+        rows: &mut Rows,
+    ) -> Result<(), FormatError> {
+        let value = |column: usize| {
+            record.get(column).and_then(|value| std::str::from_utf8(value).ok()).ok_or_else(|| {
+                FormatError::Line {
+                    line,
+                    found: format!("{} values", record.len()),
+                    expected: format!("at least {}, as the columns named", column + 1),
+                }
+            })
+        };
+        let position = Position {
+            x: coordinate(torus, line, "x", value(self.x)?)?,
+            y: coordinate(torus, line, "y", value(self.y)?)?,
+        };
+        rows.push(line, self.id.map(value).transpose()?, position)
+    }
+}
+
+/// The positions as text: columns `id,x,y`, coordinates in R0 with digits that give the same bits again.
+#[must_use]
+pub fn format(torus: &Torus, positions: &[Position]) -> String {
+    let mut text = String::from("id,x,y\n");
+    for (id, position) in positions.iter().enumerate() {
+        let (x, y) = (torus.coordinate(position.x), torus.coordinate(position.y));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{id},{x},{y}");
+    }
+    text
+}
+
+/// Writes the positions to the file at `path`, whole or not at all.
+///
+/// # Errors
+/// [`FileError::Write`].
+pub fn write(path: &Path, torus: &Torus, positions: &[Position]) -> Result<(), FileError> {
+    write_atomically(path, format(torus, positions).as_bytes())
+}
