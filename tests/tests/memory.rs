@@ -1,0 +1,44 @@
+//! What an engine costs: its size, and nothing in the program's file.
+
+use meniscus_core::engine::Engine;
+use meniscus_core::parameters::Parameters;
+use meniscus_tests::states::{scattered, with_ids};
+use std::sync::Mutex;
+
+/// 64 MiB of mesh.
+type Large = Engine<2048, 4096>;
+
+static LARGE: Mutex<Large> = Mutex::new(Large::new());
+
+#[test]
+fn an_engine_of_64_nodes_and_256_discs_fits_96_kibibytes() {
+    assert!(size_of::<Engine<64, 256>>() <= 96 * 1024, "{} bytes", size_of::<Engine<64, 256>>());
+}
+
+#[test]
+fn an_engine_is_its_arrays_and_little_else() {
+    // Per disc 9 words of 32 bits and 2 of 64; per node mass, field and influence; 16 lines; the gradient.
+    let arrays = |grid: usize, discs: usize| discs * 52 + grid * grid * 16 + 16 * grid * 8 + grid * 4;
+    assert!(size_of::<Engine<64, 256>>() - arrays(64, 256) < 256);
+    assert!(size_of::<Engine<16, 2>>() - arrays(16, 2) < 256);
+}
+
+#[test]
+fn a_static_engine_takes_no_room_in_the_programs_file() {
+    // Used, so that it cannot be left out.
+    let parameters = Parameters { grid: 2048, side: 256.0, capillary_strength: 0.0, ..Parameters::default() };
+    let mut engine = LARGE.lock().unwrap();
+    engine.init(&parameters, with_ids(&scattered(1, 100))).unwrap();
+    assert!(engine.step().is_ok());
+    let program = std::env::current_exe().unwrap();
+    let length = std::fs::metadata(program).unwrap().len();
+    assert!(length < size_of::<Large>() as u64, "the program has {length} bytes");
+}
+
+#[test]
+fn an_engine_has_nothing_until_it_is_started() {
+    // A disc, a clock, a digest: nothing there.
+    let engine = Box::new(Engine::<16, 4>::default());
+    assert_eq!((engine.count(), engine.clock().step, engine.clock().time), (0, 0, 0));
+    assert_eq!(engine.state().digest().length, 32);
+}
