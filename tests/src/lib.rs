@@ -4,6 +4,8 @@
 //! `--release` then.
 
 pub mod arrays;
+pub mod field;
+pub mod figures;
 pub mod reference;
 pub mod states;
 pub mod statistics;
