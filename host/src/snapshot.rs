@@ -279,3 +279,43 @@ fn mean<'a>(dots: impl Iterator<Item = &'a [u8]>) -> Rgb<u8> {
     }
     Rgb(sums.map(|sum| (sum / (DOTS * DOTS)) as u8))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_disc_across_the_border_is_seen_whole_and_at_true_size() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        let torus = Torus::new(100.0).unwrap();
+        let positions = [Position::from_bits(1 << 31, 1 << 31), Position::from_bits(0, 1 << 30)];
+        draw(&path, &torus, &positions, &|id| id == 1, "t = 0").unwrap();
+        let picture = image::open(&path).unwrap().to_rgb8();
+        assert_eq!(picture.dimensions(), (WIDTH, HEIGHT));
+
+        let red: Vec<(u32, u32)> = picture
+            .enumerate_pixels()
+            .filter(|(_, _, pixel)| **pixel == RED_INK)
+            .map(|(x, y, _)| (x, y))
+            .collect();
+        // 9 pixels are 1 R0; those at the rim are mixed with white.
+        let area = core::f64::consts::PI * 81.0;
+        assert!((area - 70.0..area).contains(&(red.len() as f64)), "{} of {area} pixels", red.len());
+        let columns: Vec<u32> = red.iter().map(|place| place.0).collect();
+        assert_eq!(columns.iter().min(), Some(&(LEFT as u32 / DOTS)));
+        assert_eq!(columns.iter().max(), Some(&(RIGHT as u32 / DOTS - 1)));
+        // A quarter of the box from below.
+        let row = (BOTTOM - SIDE / 4) as u32 / DOTS;
+        assert!(red.iter().all(|place| place.1.abs_diff(row) <= 9));
+    }
+
+    #[test]
+    fn ticks_are_few_and_round() {
+        for (side, step) in [(500.0, 100.0), (620.0, 200.0), (800.0, 200.0), (65536.0, 20000.0), (2.5, 0.5)] {
+            assert_eq!(tick_step(side), step);
+        }
+        let labels: Vec<String> = ticks(2.5).map(|(label, _)| label).collect();
+        assert_eq!(labels, ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5"]);
+    }
+}
