@@ -48,9 +48,13 @@ pub const SIGMAS_OF_FEW: f64 = 5.3;
 /// say anything, relative.
 pub const DIFFUSION_RESOLUTION: f64 = 0.01;
 
-/// Euler's bias of the density of two discs at 2.0 to 2.1 R0, relative to Boltzmann's, for each R0²/D of
-/// the step's ceiling: PHYSICS gives 0.95 at 0.001 and 0.99 at 2e-4, that is 50 per unit.
-pub const CONTACT_BIAS: (f64, f64) = (35.0, 75.0);
+/// Least and largest bias of Euler's steps, 1 − (density of two discs at 2.0 to 2.1 R0 over Boltzmann's), for each
+/// R0²/D of the step's ceiling: PHYSICS gives 0.72 of Boltzmann's density at 0.005, 0.95 at 0.001 and 0.99 at 2e-4, that
+/// is 50 to 56; a longer step has a second-order part.
+pub const CONTACT_BIAS: (f64, f64) = (42.0, 62.0);
+
+/// Bias of Euler's steps allowed at 2e-4 R0²/D from 1.9 R0 on: PHYSICS gives 0.01 at contact.
+pub const BIAS_AT_SHORT_STEPS: f64 = 0.015;
 
 // Accuracy of the mesh against Ewald sums: tests/accuracy.rs.
 
@@ -99,3 +103,16 @@ pub const FAR_ERROR: Within = Within(1e-5, 5e-4);
 /// Ratio of the errors of distant pairs at spacings h and h/2 in a scheme of second order: 4, but for what
 /// higher orders add at the coarsest mesh and the assignment at the finest.
 pub const SECOND_ORDER: Within = Within(3.5, 4.5);
+
+// Cold collapse: tests/ring_collapse.rs.
+
+/// A0 of a ring against the paper's, which has two decimals: its rounding, 0.005, and as much for reading R_f.
+pub const DELAY: f64 = 0.01;
+
+/// A0 on the coarse mesh and step against the preset's mesh: a tenth of 0.01 for Euler's step, which is late by
+/// half a step of 0.05 R0²/D in T = 42 R0²/D, and a tenth for a mesh of spacing 6 R0 in rings 19 R0 apart.
+pub const COARSE_DELAY: f64 = 0.002;
+
+/// Radius of a ring against the closed form up to 0.6 T, relative. Euler's step is late by half of 0.05 R0²/D, and
+/// t/T is 6e-4 early; in the inner rings, of radius 40 R0 then, what a mesh of spacing 6 R0 does shows as well.
+pub const NEWTONIAN_RADIUS: Within = Within(1e-5, 1e-3);
