@@ -6,6 +6,7 @@
 pub mod arrays;
 pub mod field;
 pub mod figures;
+pub mod fits;
 pub mod reference;
 pub mod states;
 pub mod statistics;

@@ -1,0 +1,134 @@
+//! Cold collapse of a patch of rings: Fig. 12, and the limit of infinite λ in closed form.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use core::f64::consts::PI;
+
+use meniscus::configuration::Configuration;
+use meniscus::simulation::Simulation;
+use meniscus_core::torus::{Fraction, Position, Torus, minimum_image};
+use meniscus_tests::figures::assert_within;
+use meniscus_tests::fits::delay_of_collapse;
+use meniscus_tests::long_tests;
+use meniscus_tests::tolerances::{COARSE_DELAY, DELAY, NEWTONIAN_RADIUS, Within};
+
+/// Rings of the patch, each of 10 discs times its number.
+const RINGS: usize = 9;
+/// Distance between rings, R0.
+const SPACING: f64 = 19.29;
+
+/// Rings of Fig. 12 with the paper's A0 and R_f (R0).
+const FIGURE_12: [(usize, f64, f64); 3] = [(7, 1.15, 18.0), (5, 1.16, 13.0), (3, 1.16, 8.0)];
+
+/// A mesh and a step eight times coarser than the preset's mesh and fifty times than its step. The forces of a cold
+/// patch are smooth until its discs touch; that the fit hardly depends on either is tested below.
+const COARSE: [&str; 2] = ["mesh.grid=128", "motion.max_step=0.05"];
+
+/// The preset's mesh. Its step of 0.001 R0²/D is for thermal kicks, and there are none.
+const FINE: [&str; 2] = ["mesh.grid=1024", "motion.max_step=0.01"];
+
+/// The radii of all rings at one time.
+struct Sample {
+    /// t/T
+    time: f64,
+    /// Of rings 1, 2, …, R0.
+    radii: [f64; RINGS],
+}
+
+/// Mean distance from the middle of the box of the discs of each ring.
+fn radii(torus: &Torus, discs: &[Position]) -> [f64; RINGS] {
+    let centre = Fraction::from_bits(1 << 31);
+    let along = |coordinate| torus.length(minimum_image(coordinate, centre));
+    let distances: Vec<f64> = discs.iter().map(|disc| libm::hypot(along(disc.x), along(disc.y))).collect();
+    core::array::from_fn(|ring| {
+        // The central disc and the rings within come first.
+        let first = 1 + 5 * ring * (ring + 1);
+        let count = 10 * (ring + 1);
+        distances[first..first + count].iter().sum::<f64>() / count as f64
+    })
+}
+
+/// The collapse of Fig. 12 with `overrides` up to `until` (t/T), a sample every 0.01 T.
+fn collapse(overrides: &[&str], until: f64) -> Vec<Sample> {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let configuration = Configuration::from_preset("fig-12", &overrides).unwrap();
+    let mut simulation = Simulation::new(configuration).unwrap();
+    let mut samples = Vec::new();
+    let mut next = 0.0;
+    loop {
+        let time = simulation.time_over_jeans().unwrap();
+        if time >= until {
+            return samples;
+        }
+        if time >= next {
+            samples.push(Sample { time, radii: radii(&simulation.torus, &simulation.engine.positions()) });
+            next += 0.01;
+        }
+        simulation.engine.step().unwrap();
+    }
+}
+
+/// A0 of the rings of Fig. 12, fitted over 0 < t < 0.9 T.
+fn delays(overrides: &[&str]) -> [f64; 3] {
+    let samples = collapse(overrides, 0.9);
+    FIGURE_12.map(|(ring, _, final_radius)| {
+        let radii: Vec<(f64, f64)> =
+            samples.iter().map(|sample| (sample.time, sample.radii[ring - 1])).collect();
+        delay_of_collapse(&radii, SPACING * ring as f64, final_radius)
+    })
+}
+
+fn assert_delays_of_the_paper(delays: [f64; 3]) {
+    for ((ring, expected, _), found) in FIGURE_12.into_iter().zip(delays) {
+        assert_within(found, Within(expected - DELAY, expected + DELAY), &format!("A0 of ring {ring}"));
+    }
+}
+
+#[test]
+fn rings_collapse_as_the_paper_has_fitted() {
+    assert_delays_of_the_paper(delays(&COARSE));
+}
+
+#[test]
+fn the_fit_does_not_depend_on_mesh_and_step() {
+    if !long_tests() {
+        return;
+    }
+    let (coarse, fine) = (delays(&COARSE), delays(&FINE));
+    assert_delays_of_the_paper(fine);
+    for ((ring, ..), (coarse, fine)) in FIGURE_12.into_iter().zip(coarse.into_iter().zip(fine)) {
+        let accepted = Within(-COARSE_DELAY, COARSE_DELAY);
+        assert_within(coarse - fine, accepted, &format!("A0 of ring {ring}, coarse minus fine"));
+    }
+}
+
+/// Without screening, a circle of radius R about the middle of the periodic box feels what is within it: N discs
+/// and the background of density −ρ̄ that makes the box neutral, d(R²)/dt = −2V0(N − πρ̄R²). What is outside has no
+/// part in the mean over the circle. Ring n has 1 + 5n(n−1) discs within it and half of its own 10n − 1 others.
+///
+/// For ρ̄ → 0 this is Eq. 13.
+#[test]
+fn without_screening_the_collapse_is_that_of_the_closed_form() {
+    let overrides = [&COARSE[..], &["system.capillary_length=inf"]].concat();
+    let samples = collapse(&overrides, 0.6);
+    let configuration = Configuration::from_preset("fig-12", &[]).unwrap();
+    let jeans_time = configuration.jeans_time().unwrap();
+    let system = configuration.system;
+    let background = system.particles as f64 / (system.side * system.side);
+    let rate = 2.0 * PI * system.capillary_strength * background;
+    for ring in 3..=RINGS {
+        let within = 5.0 * (ring * ring) as f64 + 0.5;
+        let balance = within / (PI * background);
+        let initial = SPACING * ring as f64;
+        let radius = |time: f64| {
+            (balance - (balance - initial * initial) * libm::exp(rate * time * jeans_time)).sqrt()
+        };
+        let error = |sample: &Sample| (sample.radii[ring - 1] / radius(sample.time) - 1.0).abs();
+        let largest = samples.iter().map(error).fold(0.0, f64::max);
+        assert_within(
+            largest,
+            NEWTONIAN_RADIUS,
+            &format!("ring {ring}, largest relative error of the radius"),
+        );
+    }
+}
