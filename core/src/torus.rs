@@ -19,6 +19,9 @@ pub type Fraction = fixed::types::U0F32;
 /// Largest side, R0: beyond it the unit of position L·2⁻³² is coarser than 2⁻¹⁶ R0.
 pub const LARGEST_SIDE: f64 = 65536.0;
 
+/// Smallest side, R0. Far below it the unit of position would be a subnormal number or zero.
+pub const SMALLEST_SIDE: f64 = 1.0 / 65536.0;
+
 /// Number of units of position along a side, 2³².
 const UNITS: f64 = 4294967296.0;
 
@@ -42,7 +45,7 @@ impl Position {
 /// Why a side or a coordinate was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TorusError {
-    /// The side is not a finite positive number of R0.
+    /// The side is not a finite number of R0, or below [`SMALLEST_SIDE`].
     Side,
     /// The side exceeds [`LARGEST_SIDE`].
     SideTooLarge,
@@ -57,12 +60,12 @@ pub struct Torus {
 }
 
 impl Torus {
-    /// A box of side `side` (R0), 0 < side ≤ [`LARGEST_SIDE`].
+    /// A box of side `side` (R0), from [`SMALLEST_SIDE`] to [`LARGEST_SIDE`].
     ///
     /// # Errors
     /// [`TorusError::Side`] or [`TorusError::SideTooLarge`].
     pub fn new(side: f64) -> Result<Self, TorusError> {
-        if !(side.is_finite() && side > 0.0) {
+        if !(side.is_finite() && side >= SMALLEST_SIDE) {
             return Err(TorusError::Side);
         }
         if side > LARGEST_SIDE {

@@ -1,7 +1,7 @@
 //! Positions on the torus: fixed point, wrap, minimum image, crossings.
 
 use meniscus_core::ermak::displace;
-use meniscus_core::torus::{Fraction, LARGEST_SIDE, Torus, TorusError, minimum_image};
+use meniscus_core::torus::{Fraction, LARGEST_SIDE, SMALLEST_SIDE, Torus, TorusError, minimum_image};
 use proptest::prelude::*;
 
 fn sides() -> impl Strategy<Value = f64> {
@@ -9,6 +9,7 @@ fn sides() -> impl Strategy<Value = f64> {
         Just(64.0),
         Just(LARGEST_SIDE),
         Just(f64::from_bits(4.5_f64.to_bits() + 1)),
+        Just(SMALLEST_SIDE),
         4.5..LARGEST_SIDE
     ]
 }
@@ -137,7 +138,8 @@ fn numbers_that_are_not_finite_wrap_to_the_origin() {
 
 #[test]
 fn sides_that_are_no_side_are_refused() {
-    for side in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    let least = SMALLEST_SIDE.next_down();
+    for side in [0.0, -0.0, -1.0, least, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert_eq!(Torus::new(side), Err(TorusError::Side), "{side}");
     }
     assert_eq!(Torus::new(LARGEST_SIDE).map(|torus| torus.side()), Ok(65536.0));
