@@ -10,15 +10,17 @@
 //!
 //! ```
 //! use meniscus_core::assignment::{deposit, DISC};
+//! use meniscus_core::grid::Grid;
 //! use meniscus_core::parameters::Assignment;
 //! use meniscus_core::torus::Fraction;
 //!
 //! let mut nodes = [0; 256];
 //! let (x, y) = ([Fraction::from_bits(12345)], [Fraction::from_bits(u32::MAX)]);
-//! deposit(Assignment::TriangularShapedCloud, 16, &x, &y, &mut nodes).unwrap();
+//! deposit(Assignment::TriangularShapedCloud, Grid::SMALLEST, &x, &y, &mut nodes).unwrap();
 //! assert_eq!(nodes.iter().sum::<u32>(), DISC);
 //! ```
 
+use crate::grid::Grid;
 use crate::parameters::Assignment;
 use crate::torus::Fraction;
 use crate::transform::Complex32;
@@ -50,20 +52,19 @@ struct Axis<const P: usize> {
 }
 
 /// The node at or below a coordinate, and the distance to it in units of 2⁻²⁸ cells.
-fn node_below(bits: u32, grid: usize) -> (usize, u32) {
-    let exponent = grid.trailing_zeros();
-    let node = bits >> (32 - exponent);
-    ((node as usize), bits.wrapping_shl(exponent) >> 4)
+fn node_below(bits: u32, grid: Grid) -> (usize, u32) {
+    let node = bits >> (32 - grid.exponent());
+    (node as usize, (bits << grid.exponent()) >> 4)
 }
 
 /// How a coordinate is shared among the nodes along its axis.
 trait Share {
-    fn new(coordinate: Fraction, grid: usize) -> Self;
+    fn new(coordinate: Fraction, grid: Grid) -> Self;
 }
 
 /// Cloud in cell.
 impl Share for Axis<2> {
-    fn new(coordinate: Fraction, grid: usize) -> Self {
+    fn new(coordinate: Fraction, grid: Grid) -> Self {
         let (first, distance) = node_below(coordinate.to_bits(), grid);
         let upper = distance * (ONE / CELL);
         Self { first, nearest: usize::from(distance > CELL / 2), weights: [ONE - upper, upper] }
@@ -72,8 +73,8 @@ impl Share for Axis<2> {
 
 /// Triangular shaped cloud.
 impl Share for Axis<3> {
-    fn new(coordinate: Fraction, grid: usize) -> Self {
-        let half_cell = 1 << (31 - grid.trailing_zeros());
+    fn new(coordinate: Fraction, grid: Grid) -> Self {
+        let half_cell = 1 << (31 - grid.exponent());
         let (nearest, distance) = node_below(coordinate.to_bits().wrapping_add(half_cell), grid);
         // The outer weights (½ ± δ)²/2, δ the distance from the nearest node in −½ … ½.
         let outer = |to_edge: u32| {
@@ -81,7 +82,7 @@ impl Share for Axis<3> {
             ((square + (1 << 26)) >> 27) as u32
         };
         let (below, above) = (outer(CELL - distance), outer(distance));
-        let first = nearest.wrapping_sub(1) & (grid - 1);
+        let first = grid.wrap(nearest.wrapping_sub(1));
         Self { first, nearest: 1, weights: [below, ONE - below - above, above] }
     }
 }
@@ -97,7 +98,7 @@ where
     Axis<P>: Share,
 {
     #[inline]
-    fn new(x: Fraction, y: Fraction, grid: usize) -> Self {
+    fn new(x: Fraction, y: Fraction, grid: Grid) -> Self {
         let (x, y) = (Axis::<P>::new(x, grid), Axis::<P>::new(y, grid));
         let mut weights = [[0; P]; P];
         let mut left = DISC;
@@ -116,11 +117,11 @@ where
 
     /// Calls `visit` with the element and the weight of each node, row by row.
     #[inline]
-    fn for_each(&self, grid: usize, mut visit: impl FnMut(usize, u32)) {
+    fn for_each(&self, grid: Grid, mut visit: impl FnMut(usize, u32)) {
         for (row, weights) in self.weights.iter().enumerate() {
-            let line = ((self.first.0 + row) & (grid - 1)) * grid;
+            let line = grid.wrap(self.first.0 + row) * grid.nodes();
             for (column, &weight) in weights.iter().enumerate() {
-                visit(line + ((self.first.1 + column) & (grid - 1)), weight);
+                visit(line + grid.wrap(self.first.1 + column), weight);
             }
         }
     }
@@ -133,7 +134,7 @@ where
 /// [`Crowded`] if a node holds more than [`LARGEST_NODE_MASS`] discs; `nodes` is then of no use.
 pub fn deposit(
     assignment: Assignment,
-    grid: usize,
+    grid: Grid,
     x: &[Fraction],
     y: &[Fraction],
     nodes: &mut [u32],
@@ -150,7 +151,7 @@ pub fn deposit(
     Ok(())
 }
 
-fn deposit_with<const P: usize>(grid: usize, x: &[Fraction], y: &[Fraction], nodes: &mut [u32])
+fn deposit_with<const P: usize>(grid: Grid, x: &[Fraction], y: &[Fraction], nodes: &mut [u32])
 where
     Axis<P>: Share,
 {
@@ -170,7 +171,7 @@ where
 /// 2⁻²⁴ kBT/R0. The sum over a disc's nodes runs row by row in binary32.
 pub fn gather(
     assignment: Assignment,
-    grid: usize,
+    grid: Grid,
     (x, y): (&[Fraction], &[Fraction]),
     field: &[Complex32],
     (force_x, force_y): (&mut [i64], &mut [i64]),
@@ -183,7 +184,7 @@ pub fn gather(
 }
 
 fn gather_with<'a, const P: usize>(
-    grid: usize,
+    grid: Grid,
     x: &[Fraction],
     y: &[Fraction],
     field: &[Complex32],

@@ -35,6 +35,7 @@ use crate::cells::for_each_pair;
 use crate::digest::State;
 use crate::environment::{self, EnvironmentError};
 use crate::ermak::{Displacement, StepLimits, displace, largest_force};
+use crate::grid::Grid;
 use crate::influence::{fill_gradient, fill_influence, influence_length};
 use crate::mesh::{Tables, solve};
 use crate::noise::{Purpose, StepKey, ThermalKick};
@@ -201,7 +202,7 @@ pub struct Dynamics {
     repulsion: Repulsion,
     /// Units of position in 1 R0, 2³²/L.
     units: f32,
-    grid: usize,
+    grid: Grid,
     assignment: Assignment,
     noise: Noise,
     attracts: bool,
@@ -219,7 +220,7 @@ impl Dynamics {
             limits: StepLimits::blank(),
             repulsion: Repulsion::blank(),
             units: 0.0,
-            grid: 0,
+            grid: Grid::SMALLEST,
             assignment: Assignment::CloudInCell,
             noise: Noise::Uniform,
             attracts: false,
@@ -241,6 +242,7 @@ impl Dynamics {
         const UNITS: f64 = 4_294_967_296.0;
         parameters.validate().map_err(InitError::Parameters)?;
         environment::check().map_err(InitError::Environment)?;
+        let grid = Grid::new(parameters.grid).ok_or(InitError::Parameters(ParameterError::Grid))?;
         if !memory.holds_grid(parameters.grid) {
             return Err(InitError::Memory);
         }
@@ -254,7 +256,7 @@ impl Dynamics {
             limits: StepLimits::new(parameters.max_step, parameters.max_displacement),
             repulsion: Repulsion::new(parameters.side),
             units: (UNITS / parameters.side) as f32,
-            grid: parameters.grid,
+            grid,
             assignment: parameters.assignment,
             noise: parameters.noise,
             attracts: parameters.capillary_strength > 0.0,

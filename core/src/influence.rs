@@ -27,7 +27,7 @@ use core::f64::consts::PI;
 /// Length of the influence table for M nodes a side, (M/2+1)².
 #[must_use]
 pub const fn influence_length(grid: usize) -> usize {
-    (grid / 2 + 1) * (grid / 2 + 1)
+    (grid / 2 + 1).saturating_mul(grid / 2 + 1)
 }
 
 /// Fills the influence table, unit kBT·R0⁰ per unit of node mass and per 1/R0 of gradient.

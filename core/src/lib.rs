@@ -25,6 +25,7 @@ pub mod dynamics;
 pub mod engine;
 pub mod environment;
 pub mod ermak;
+pub mod grid;
 pub mod influence;
 pub mod mesh;
 pub mod noise;

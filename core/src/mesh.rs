@@ -9,6 +9,7 @@
 //! spectrum is written exchanged, and the field comes out with F_x as its real part.
 //!
 //! ```
+//! use meniscus_core::grid::Grid;
 //! use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
 //! use meniscus_core::mesh::{solve, Tables};
 //! use meniscus_core::parameters::{Gradient, Parameters};
@@ -25,11 +26,12 @@
 //! let mut field = [Complex32::new(0.0, 0.0); 256];
 //! let mut lines = [Complex32::new(0.0, 0.0); 32];
 //! let tables = Tables { influence: &influence, gradient: &gradient };
-//! solve(&AnySize, 16, &tables, &nodes, &mut field, &mut lines);
+//! solve(&AnySize, Grid::SMALLEST, &tables, &nodes, &mut field, &mut lines);
 //! // A disc at the middle attracts from its left to the right.
 //! assert!(field[4 * 16 + 8].re > 0.0);
 //! ```
 
+use crate::grid::Grid;
 use crate::transform::{Complex32, LineTransform};
 
 /// What a spectrum is multiplied with, see [`crate::influence`].
@@ -43,16 +45,18 @@ pub struct Tables<'a> {
 
 /// Turns node masses (M × M, unit 2⁻²⁰ discs) into `field`, F_x + i·F_y on M × M nodes in kBT/R0.
 ///
-/// `lines` is working memory of 2M elements or a multiple of that; with 16M whole cache lines are used.
+/// `lines` is working memory of 2M elements or a multiple of that; with 16M whole cache lines are used, with less than
+/// 2M nothing is done.
 pub fn solve<T: LineTransform>(
     transform: &T,
-    grid: usize,
+    grid: Grid,
     tables: &Tables<'_>,
     nodes: &[u32],
     field: &mut [Complex32],
     lines: &mut [Complex32],
 ) {
-    if grid < 2 || lines.len() < 2 * grid {
+    let grid = grid.nodes();
+    if lines.len() < 2 * grid {
         return;
     }
     transform_columns(transform, grid, nodes, field);

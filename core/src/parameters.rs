@@ -12,7 +12,10 @@
 //! assert_eq!(nonsense.validate(), Err(ParameterError::CapillaryLength));
 //! ```
 
+use crate::grid::Grid;
 use crate::torus::LARGEST_SIDE;
+
+pub use crate::grid::RANGE as GRID_RANGE;
 
 /// How a disc's mass is spread over mesh nodes, and the field gathered from them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -116,8 +119,6 @@ impl Default for Parameters {
 pub const LARGEST_CAPILLARY_STRENGTH: f64 = 1000.0;
 /// Smallest capillary length λ, R0.
 pub const SMALLEST_CAPILLARY_LENGTH: f64 = 0.01;
-/// Smallest and largest number of mesh nodes along a side.
-pub const GRID_RANGE: (usize, usize) = (16, 4096);
 /// Smallest and largest mesh spacing h = L/M, R0: finer resolves the inside of a disc, coarser no disc.
 pub const SPACING_RANGE: (f64, f64) = (0.125, 16.0);
 /// Largest number of discs. Bounds the total force, see [`crate::units`].
@@ -178,7 +179,7 @@ impl Parameters {
         if !within(self.capillary_length, (SMALLEST_CAPILLARY_LENGTH, f64::INFINITY)) {
             return Err(ParameterError::CapillaryLength);
         }
-        if !self.grid.is_power_of_two() || self.grid < GRID_RANGE.0 || self.grid > GRID_RANGE.1 {
+        if Grid::new(self.grid).is_none() {
             return Err(ParameterError::Grid);
         }
         let spacing = self.side / self.grid as f64;

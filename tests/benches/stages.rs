@@ -9,6 +9,7 @@ use meniscus_core::assignment::{deposit, gather};
 use meniscus_core::cells::for_each_pair;
 use meniscus_core::dynamics::Clock;
 use meniscus_core::ermak::{Displacement, displace, largest_force};
+use meniscus_core::grid::Grid;
 use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
 use meniscus_core::mesh::{Tables, solve};
 use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
@@ -21,6 +22,10 @@ use std::hint::black_box;
 const COUNT: usize = 2500;
 const SIDE: f64 = 500.0;
 const GRID: usize = 512;
+
+fn grid() -> Grid {
+    Grid::new(GRID).unwrap()
+}
 
 /// Discs on a square lattice, 10 R0 apart, each shifted at random by less than 3 R0.
 fn uniform() -> Vec<Position> {
@@ -88,14 +93,14 @@ fn mesh_stages(criterion: &mut Criterion) {
     let (mut force_x, mut force_y) = (vec![0; COUNT], vec![0; COUNT]);
     for assignment in [Assignment::CloudInCell, Assignment::TriangularShapedCloud] {
         criterion.bench_function(&format!("deposit {assignment:?}"), |bencher| {
-            bencher.iter(|| deposit(assignment, GRID, &x, &y, black_box(&mut nodes)));
+            bencher.iter(|| deposit(assignment, grid(), &x, &y, black_box(&mut nodes)));
         });
         criterion.bench_function(&format!("gather {assignment:?}"), |bencher| {
-            bencher.iter(|| gather(assignment, GRID, (&x, &y), &field, (&mut force_x, &mut force_y)));
+            bencher.iter(|| gather(assignment, grid(), (&x, &y), &field, (&mut force_x, &mut force_y)));
         });
     }
     criterion.bench_function("mesh solve", |bencher| {
-        bencher.iter(|| solve(&AnySize, GRID, &tables, &nodes, black_box(&mut field), &mut lines));
+        bencher.iter(|| solve(&AnySize, grid(), &tables, &nodes, black_box(&mut field), &mut lines));
     });
 }
 

@@ -4,6 +4,7 @@
 //! disc exerts none on itself.
 
 use meniscus_core::assignment::{Crowded, deposit, gather};
+use meniscus_core::grid::Grid;
 use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
 use meniscus_core::mesh::{Tables, solve};
 use meniscus_core::parameters::{Assignment, Parameters};
@@ -17,7 +18,7 @@ use crate::states::coordinates;
 #[derive(Clone, Debug)]
 pub struct MeshField {
     assignment: Assignment,
-    grid: usize,
+    grid: Grid,
     field: Vec<Complex32>,
 }
 
@@ -28,16 +29,18 @@ impl MeshField {
     /// [`Crowded`] if a node would hold too many discs.
     pub fn new(parameters: &Parameters, sources: &[Position]) -> Result<Self, Crowded> {
         let Parameters { assignment, grid, .. } = *parameters;
+        #[expect(clippy::expect_used, reason = "the parameters are valid by contract")]
+        let mesh = Grid::new(grid).expect("valid parameters");
         let zero = Complex32::new(0.0, 0.0);
         let (mut nodes, mut field) = (vec![0; grid * grid], vec![zero; grid * grid]);
         let (mut influence, mut gradient) = (vec![0.0; influence_length(grid)], vec![0.0; grid]);
         fill_influence(parameters, &mut influence);
         fill_gradient(parameters, &mut gradient);
         let (x, y) = coordinates(sources);
-        deposit(assignment, grid, &x, &y, &mut nodes)?;
+        deposit(assignment, mesh, &x, &y, &mut nodes)?;
         let tables = Tables { influence: &influence, gradient: &gradient };
-        solve(&AnySize, grid, &tables, &nodes, &mut field, &mut vec![zero; 16 * grid]);
-        Ok(Self { assignment, grid, field })
+        solve(&AnySize, mesh, &tables, &nodes, &mut field, &mut vec![zero; 16 * grid]);
+        Ok(Self { assignment, grid: mesh, field })
     }
 
     /// The forces (kBT/R0) on discs at `probes` due to the sources alone.

@@ -1,6 +1,7 @@
 //! Mass assignment: what a disc leaves on the mesh and what it takes from it.
 
 use meniscus_core::assignment::{Crowded, DISC, LARGEST_NODE_MASS, deposit, gather};
+use meniscus_core::grid::Grid;
 use meniscus_core::parameters::Assignment;
 use meniscus_core::torus::{Fraction, Position};
 use meniscus_core::transform::Complex32;
@@ -15,9 +16,10 @@ fn assignments() -> impl Strategy<Value = Assignment> {
 }
 
 fn nodes_of(assignment: Assignment, grid: usize, discs: &[Position]) -> Result<Vec<u32>, Crowded> {
+    let mesh = Grid::new(grid).unwrap();
     let (x, y) = coordinates(discs);
     let mut nodes = vec![7; grid * grid];
-    deposit(assignment, grid, &x, &y, &mut nodes)?;
+    deposit(assignment, mesh, &x, &y, &mut nodes)?;
     Ok(nodes)
 }
 
@@ -128,7 +130,7 @@ proptest! {
         let field = vec![Complex32::new(along_x as f32, along_y as f32); grid * grid];
         let (mut force_x, mut force_y) = ([0], [0]);
         let (x, y) = ([Fraction::from_bits(x)], [Fraction::from_bits(y)]);
-        gather(assignment, grid, (&x, &y), &field, (&mut force_x, &mut force_y));
+        gather(assignment, Grid::new(grid).unwrap(), (&x, &y), &field, (&mut force_x, &mut force_y));
         // Weights sum to 2²⁰ exactly; up to 9 sums below 1000 · 2²⁰ are rounded to 24 bits, 2⁶, and scaled by 2⁴.
         let bound = f64::from(9 * (1 << 6) * (1 << 4));
         prop_assert!((force_x[0] as f64 - f64::from(along_x) * 16_777_216.0).abs() <= bound);
@@ -170,7 +172,7 @@ fn gather_does_not_depend_on_storage_order() {
         let gathered = |discs: &[Position]| {
             let (x, y) = coordinates(discs);
             let (mut force_x, mut force_y) = (vec![0; discs.len()], vec![0; discs.len()]);
-            gather(assignment, 32, (&x, &y), &field, (&mut force_x, &mut force_y));
+            gather(assignment, Grid::new(32).unwrap(), (&x, &y), &field, (&mut force_x, &mut force_y));
             force_x.into_iter().zip(force_y).collect::<Vec<_>>()
         };
         let in_order = gathered(&discs);

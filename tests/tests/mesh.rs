@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 use meniscus_core::dynamics::{Clock, Dynamics};
+use meniscus_core::grid::Grid;
 use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
 use meniscus_core::mesh::{Tables, solve};
 use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise, Parameters};
@@ -87,7 +88,7 @@ fn field<T: LineTransform>(
     let tables = Tables { influence: &influence, gradient: &gradient };
     let junk = Complex32::new(7.0, 7.0);
     let (mut field, mut lines) = (vec![junk; grid * grid], vec![junk; 2 * grid * rows]);
-    solve(transform, grid, &tables, nodes, &mut field, &mut lines);
+    solve(transform, Grid::new(grid).unwrap(), &tables, nodes, &mut field, &mut lines);
     field
 }
 
