@@ -7,6 +7,7 @@ pub mod arrays;
 pub mod field;
 pub mod figures;
 pub mod fits;
+pub mod fuzzing;
 pub mod reference;
 pub mod states;
 pub mod statistics;

@@ -1,0 +1,135 @@
+//! The engine: set-up and steps.
+
+use super::bytes::Bytes;
+use meniscus_core::digest::StateDigest;
+use meniscus_core::dynamics::{Clock, InitError, Step, StepError};
+use meniscus_core::engine::Engine;
+use meniscus_core::parameters::{
+    Assignment, DISPLACEMENT_RANGE, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH, Noise, Parameters,
+    SMALLEST_CAPILLARY_LENGTH, STEP_RANGE,
+};
+use meniscus_core::repulsion::CUTOFF;
+use meniscus_core::torus::Position;
+use meniscus_core::units::TIME_UNITS;
+
+type SmallEngine = Engine<16, 32>;
+
+/// Largest side of a mesh of 16 nodes, R0.
+const LARGEST_SIDE: f64 = 256.0;
+
+/// Parameters, a clock and discs; then: set-up succeeds exactly when the parameters are valid and the ids are 0 … n − 1,
+/// and of every step: its length is within its bounds, a refusal leaves the state as it was, repulsion alone sums to
+/// zero, and neither the order of the discs, nor a restart, nor looking at forces changes anything.
+pub fn step(data: &[u8]) {
+    let mut bytes = Bytes(data);
+    let parameters = parameters(&mut bytes);
+    let clock = match bytes.byte() {
+        0 => Clock { step: bytes.bits_64(), time: bytes.bits_64() },
+        _ => Clock::START,
+    };
+    let steps = bytes.byte() % 8;
+    let discs = discs(&mut bytes);
+
+    let mut engine = Box::new(SmallEngine::new());
+    let result = engine.init_at(&parameters, clock, discs.iter().copied());
+    check_init(&parameters, &discs, result);
+    if result.is_err() {
+        assert_eq!(engine.count(), 0);
+        assert_eq!(engine.step(), Err(StepError::NotInitialised));
+        return;
+    }
+    let mut reversed = Box::new(SmallEngine::new());
+    assert_eq!(reversed.init_at(&parameters, clock, discs.iter().rev().copied()), Ok(()));
+    assert_eq!(digest(&engine), digest(&reversed));
+    for _ in 0..steps {
+        let mut restarted = restart(&parameters, &engine);
+        let before = digest(&engine);
+        assert_eq!(engine.compute_forces().is_ok(), reversed.compute_forces().is_ok());
+        assert_eq!(digest(&engine), before);
+        let result = engine.step();
+        assert_eq!(result, reversed.step());
+        assert_eq!(result, restarted.step());
+        match result {
+            Ok(step) => check_step(&parameters, &before, &step),
+            Err(_) => assert_eq!(digest(&engine), before),
+        }
+        assert_eq!(digest(&engine), digest(&reversed));
+        assert_eq!(digest(&engine), digest(&restarted));
+        check_net_force(&parameters, &engine);
+    }
+}
+
+fn parameters(bytes: &mut Bytes<'_>) -> Parameters {
+    Parameters {
+        side: bytes.number(2.0 * CUTOFF, LARGEST_SIDE),
+        capillary_strength: bytes.number(0.0, LARGEST_CAPILLARY_STRENGTH),
+        capillary_length: bytes.number(SMALLEST_CAPILLARY_LENGTH, f64::MAX),
+        repulsion: bytes.flag(),
+        grid: bytes.choice([16, 16, 16, 16, 16, 16, 16, 64]),
+        assignment: bytes.choice([Assignment::CloudInCell, Assignment::TriangularShapedCloud]),
+        influence: bytes.choice([Influence::Paper, Influence::Continuum]),
+        gradient: bytes.choice([Gradient::Spectral, Gradient::Difference2, Gradient::Difference4]),
+        noise: bytes.choice([Noise::Uniform, Noise::Gaussian, Noise::None]),
+        max_step: bytes.number(STEP_RANGE.0, STEP_RANGE.1),
+        max_displacement: bytes.number(DISPLACEMENT_RANGE.0, DISPLACEMENT_RANGE.1),
+        seed: bytes.bits_64(),
+    }
+}
+
+/// Up to 33 discs. Ids are those of the order, mixed, or whatever the bytes say.
+fn discs(bytes: &mut Bytes<'_>) -> Vec<(u32, Position)> {
+    let (kind, near) = (bytes.byte(), bytes.byte() % 32);
+    let mut discs = Vec::new();
+    while !bytes.is_empty() && discs.len() <= 32 {
+        let id = if kind == 0 { u32::from(bytes.byte()) } else { discs.len() as u32 };
+        // Shifted, discs are close to each other, across the border.
+        let coordinate = |bits: u32| (bits as i32 >> near) as u32;
+        discs.push((id, Position::from_bits(coordinate(bytes.bits_32()), coordinate(bytes.bits_32()))));
+    }
+    if kind != 0 && !discs.is_empty() {
+        let turn = usize::from(kind) % discs.len();
+        discs.rotate_left(turn);
+    }
+    discs
+}
+
+fn check_init(parameters: &Parameters, discs: &[(u32, Position)], result: Result<(), InitError>) {
+    let mut ids: Vec<u32> = discs.iter().map(|&(id, _)| id).collect();
+    ids.sort_unstable();
+    let dense = ids.iter().copied().eq(0..ids.len() as u32);
+    let sound = parameters.validate().is_ok() && parameters.grid == 16;
+    assert_eq!(result.is_ok(), sound && dense && (1..=32).contains(&discs.len()), "{result:?}");
+}
+
+fn digest(engine: &SmallEngine) -> StateDigest {
+    engine.state().digest_by_field()
+}
+
+/// Another engine that starts where this one is.
+fn restart(parameters: &Parameters, engine: &SmallEngine) -> Box<SmallEngine> {
+    let discs = (0..engine.count() as u32).filter_map(|id| Some((id, engine.position(id)?)));
+    let mut restarted = Box::new(SmallEngine::new());
+    assert_eq!(restarted.init_at(parameters, engine.clock(), discs), Ok(()));
+    assert_eq!(digest(engine), digest(&restarted));
+    restarted
+}
+
+fn check_step(parameters: &Parameters, before: &StateDigest, step: &Step) {
+    const DISPLACEMENT_UNITS: f64 = 18_446_744_073_709_551_616.0;
+    let &Step { length, largest_force, clock } = step;
+    assert!(length > 0 && length as f64 <= parameters.max_step * TIME_UNITS as f64, "{step:?}");
+    let displacement = u128::from(length) * u128::from(largest_force);
+    let most = (parameters.max_displacement * DISPLACEMENT_UNITS) as u128;
+    assert!(displacement <= most, "{step:?} with {parameters:?}");
+    assert_eq!((clock.step, clock.time), (before.step + 1, before.time + length));
+}
+
+/// The forces of the last step or refusal.
+fn check_net_force(parameters: &Parameters, engine: &SmallEngine) {
+    if parameters.capillary_strength > 0.0 {
+        return;
+    }
+    let forces = (0..engine.count() as u32).filter_map(|id| engine.force(id));
+    let sum = forces.fold((0, 0), |sum, force| (sum.0 + force.0, sum.1 + force.1));
+    assert_eq!(sum, (0, 0));
+}
