@@ -8,6 +8,7 @@ pub mod field;
 pub mod figures;
 pub mod fits;
 pub mod fuzzing;
+pub mod modes;
 pub mod reference;
 pub mod states;
 pub mod statistics;

@@ -116,3 +116,16 @@ pub const COARSE_DELAY: f64 = 0.002;
 /// Radius of a ring against the closed form up to 0.6 T, relative. Euler's step is late by half of 0.05 R0²/D, and
 /// t/T is 6e-4 early; in the inner rings, of radius 40 R0 then, what a mesh of spacing 6 R0 does shows as well.
 pub const NEWTONIAN_RADIUS: Within = Within(1e-5, 1e-3);
+
+// Growth of modes: tests/mode_growth.rs.
+
+/// Growth rate of waves k < 0.2 K against Eq. 10, relative, beside the statistical error. Eq. 10 has the pressure of an
+/// ideal gas, (k/K)² < 0.04 of the rate; contacts raise it by 4π·0.01 of itself, clusters lower it. A mesh
+/// of spacing 4.8 R0 adds 0.4 %.
+pub const GROWTH_OF_LONG_WAVES: f64 = 0.01;
+
+/// Standard errors allowed beside it.
+pub const GROWTH_SIGMAS: f64 = 3.0;
+
+/// Standard error of the growth rate, relative, that a test of it must reach for it to say anything.
+pub const GROWTH_RESOLUTION: f64 = 0.025;

@@ -1,0 +1,91 @@
+//! Growth of long waves in a monolayer of random discs, against Eq. 10: Fig. 2.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use core::f64::consts::TAU;
+
+use meniscus::configuration::Configuration;
+use meniscus::simulation::Simulation;
+use meniscus_core::units::time_from_units;
+use meniscus_tests::figures::assert_within;
+use meniscus_tests::long_tests;
+use meniscus_tests::modes::{Growth, growth_ratio, order, power, waves};
+use meniscus_tests::tolerances::{GROWTH_OF_LONG_WAVES, GROWTH_RESOLUTION, GROWTH_SIGMAS, Within};
+
+/// The waves of which Eq. 10 is tested, k/K. Beyond, its pressure, that of an ideal gas, and what clusters are
+/// about to do to it, matter.
+const LONG: f64 = 0.2;
+
+/// What makes a run of the waves k < 0.2 K cheap: they do not see a mesh of spacing 4.8 R0 (kh < 0.23, which weakens
+/// the force by 1 % at the most and 0.4 % on average), nor whether discs in contact repel, nor a longer step when
+/// none do.
+const COARSE: [&str; 3] = ["mesh.grid=128", "motion.max_step=0.05", "system.repulsion=false"];
+
+/// All of Fig. 2 but the ceiling of the step, which is for pairs in contact.
+const FINE: [&str; 1] = ["motion.max_step=0.005"];
+
+/// A mode of wavenumber k/K.
+type Mode = (f64, Growth);
+
+/// The growth of the long waves of Fig. 2, run with `overrides` and `seed` up to `until` (t/T).
+fn growth(overrides: &[&str], seed: u64, until: f64) -> Vec<Mode> {
+    let seed = format!("seed={seed}");
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).chain([seed]).collect();
+    let configuration = Configuration::from_preset("fig-2", &overrides).unwrap();
+    let theory = configuration.instability().unwrap();
+    let unit = TAU / configuration.system.side;
+    let waves = waves(LONG * theory.jeans_wavenumber / unit);
+    let mut simulation = Simulation::new(configuration).unwrap();
+    let powers = |simulation: &Simulation| -> Vec<f64> {
+        let discs = simulation.engine.positions();
+        waves.iter().map(|&wave| power(&discs, wave)).collect()
+    };
+    let initial = powers(&simulation);
+    while simulation.time_over_jeans().unwrap() < until {
+        simulation.engine.step().unwrap();
+    }
+    let time = time_from_units(simulation.engine.clock().time);
+    let count = simulation.engine.count() as f64;
+    let modes = waves.iter().zip(initial.into_iter().zip(powers(&simulation)));
+    modes
+        .map(|(&wave, (initial_power, later_power))| {
+            let wavenumber = unit * order(wave);
+            let thermal_power = 2.0 * count * wavenumber * wavenumber * time;
+            let exponent = time * theory.growth_rate(wavenumber);
+            let growth = Growth { initial_power, later_power, thermal_power, exponent };
+            (wavenumber / theory.jeans_wavenumber, growth)
+        })
+        .collect()
+}
+
+/// The modes whose k/K is in `range`.
+fn within(modes: &[Mode], range: core::ops::Range<f64>) -> Vec<Growth> {
+    modes.iter().filter(|(wavenumber, _)| range.contains(wavenumber)).map(|&(_, growth)| growth).collect()
+}
+
+/// Fails unless the growth rate is that of Eq. 10 and the statistics suffice to tell.
+fn assert_growth_of_theory(modes: &[Growth], resolution: f64, what: &str) {
+    let (ratio, error) = growth_ratio(modes);
+    let accepted = GROWTH_SIGMAS * error + GROWTH_OF_LONG_WAVES;
+    assert_within(ratio, Within(1.0 - accepted, 1.0 + accepted), &format!("growth rate over Eq. 10, {what}"));
+    assert_within(error, Within(0.0, resolution), &format!("its standard error, {what}"));
+}
+
+#[test]
+fn long_waves_grow_as_theory_has_it() {
+    let modes: Vec<Mode> = (1..=4).flat_map(|seed| growth(&COARSE, seed, 0.5)).collect();
+    assert_growth_of_theory(&within(&modes, 0.0..LONG), GROWTH_RESOLUTION, "k < 0.2 K");
+}
+
+#[test]
+fn long_waves_of_figure_2_grow_as_theory_has_it() {
+    if !long_tests() {
+        return;
+    }
+    let modes: Vec<Mode> = (1..=8).flat_map(|seed| growth(&FINE, seed, 1.0)).collect();
+    assert_growth_of_theory(&within(&modes, 0.0..LONG), 0.5 * GROWTH_RESOLUTION, "k < 0.2 K");
+    for range in [0.0..0.1, 0.1..0.15, 0.15..0.2] {
+        let what = format!("{} K < k < {} K", range.start, range.end);
+        assert_growth_of_theory(&within(&modes, range), GROWTH_RESOLUTION, &what);
+    }
+}
