@@ -15,6 +15,7 @@ fn assignments() -> impl Strategy<Value = Assignment> {
     prop::sample::select(&ASSIGNMENTS[..])
 }
 
+#[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 fn nodes_of(assignment: Assignment, grid: usize, discs: &[Position]) -> Result<Vec<u32>, Crowded> {
     let mesh = Grid::new(grid).unwrap();
     let (x, y) = coordinates(discs);

@@ -75,6 +75,7 @@ fn masses(grid: usize) -> Vec<u32> {
     nodes
 }
 
+#[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 fn field<T: LineTransform>(
     transform: &T,
     parameters: &Parameters,

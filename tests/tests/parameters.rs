@@ -2,6 +2,7 @@
 
 use meniscus_core::dynamics::{Clock, Dynamics, InitError};
 use meniscus_core::engine::Engine;
+use meniscus_core::grid::Grid;
 use meniscus_core::parameters::{LARGEST_SEED, ParameterError, Parameters};
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::Position;
@@ -104,6 +105,15 @@ fn every_number_out_of_range_is_refused() {
             assert_eq!(refused, Err(InitError::Parameters(error)), "{parameters:?}");
         }
     }
+}
+
+#[test]
+fn a_grid_is_a_power_of_two_from_16_to_4096() {
+    let grids: Vec<Grid> = (0..10_000).filter_map(Grid::new).collect();
+    let nodes: Vec<usize> = grids.iter().map(|grid| grid.nodes()).collect();
+    assert_eq!(nodes, [16, 32, 64, 128, 256, 512, 1024, 2048, 4096]);
+    assert!(grids.iter().all(|grid| 1 << grid.exponent() == grid.nodes()));
+    assert!(grids.iter().all(|grid| grid.wrap(grid.nodes() + 3) == 3 && grid.wrap(grid.nodes() - 1) != 0));
 }
 
 /// Sets one of the numbers of [`Parameters`].
