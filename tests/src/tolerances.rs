@@ -138,7 +138,7 @@ pub const GROWTH_RESOLUTION: f64 = 0.025;
 pub const REPELLED_DEVIATION: Within = Within(1e-9, 2.5e-6);
 
 /// The same with attraction by a mesh of h = 0.375 R0, TSC and four-point differences: at contact, 5 h, such a
-/// mesh is off by 0.15 % rms, and at 1.8 R0 by twice as much.
+/// mesh is off by 0.15 % rms, at 1.8 R0 by 0.2 %.
 pub const ATTRACTED_DEVIATION: Within = Within(1e-5, 3e-3);
 
 /// Time reached after 20 steps against the reference, relative: the largest force decides each step, and that is a
