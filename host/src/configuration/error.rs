@@ -99,7 +99,7 @@ pub enum ConfigurationError {
         nearest: Option<String>,
     },
     /// A value is of the wrong type or out of range.
-    #[error("{place}: {key}: found {}, expected {expected}", quoted(.found))]
+    #[error("{place}: {}: found {}, expected {expected}", quoted(.key), quoted(.found))]
     Value {
         /// Where it was given.
         place: Place,

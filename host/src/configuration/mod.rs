@@ -328,6 +328,7 @@ mod tests {
                 "--set: seed: found \"\" (string), expected a whole number from 0 to 9223372036854775807",
             ),
             ("seed=\"1", "--set: seed: found \"1, expected a TOML value with its quotes and brackets closed"),
+            ("a\nb=[", "--set: a\\nb: found [, expected a TOML value with its quotes and brackets closed"),
             ("mesh=512", "--set: mesh: found 512 (whole number), expected a table of keys, as under [mesh]"),
             ("mesh.grid=500", "--set: mesh.grid: found 500, expected a power of two from 16 to 4096"),
             (
