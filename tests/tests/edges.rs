@@ -2,6 +2,8 @@
 
 use meniscus_core::dynamics::{Clock, Dynamics, ForceError, StepError};
 use meniscus_core::engine::Engine;
+use meniscus_core::ermak::{Displacement, HalfBox};
+use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
 use meniscus_core::parameters::{
     Assignment, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, Noise, Parameters,
     SPACING_RANGE,
@@ -172,6 +174,18 @@ fn a_displacement_of_half_a_box_is_refused() {
 }
 
 #[test]
+fn a_displacement_of_exactly_half_a_box_is_refused_on_either_side() {
+    let kick = ThermalKick::new(Noise::None, 1.0, StepKey::new(1, Purpose::Motion, 0));
+    let unit = FORCE_UNITS as i64;
+    // 1 kBT/R0 for 1 R0²/D in a box of 2 R0, and the binary32 number below.
+    let displacement = Displacement { step_length: 1.0, units: 2_147_483_648.0, kick };
+    for force in [(unit, 0), (-unit, 0), (0, unit), (0, -unit)] {
+        assert_eq!(displacement.of(0, force), Err(HalfBox));
+    }
+    assert_eq!(displacement.of(0, (unit - 1, 1 - unit)), Ok((2_147_483_520, -2_147_483_520)));
+}
+
+#[test]
 fn the_smallest_box_works() {
     let parameters =
         Parameters { side: (2.0 * CUTOFF).next_up(), capillary_strength: 0.89, noise: Noise::Uniform, ..BOX };
@@ -193,8 +207,7 @@ fn the_largest_box_works() {
     let mut arrays = Arrays::new(grid, 8, discs.len());
     let mut dynamics =
         Dynamics::new(&parameters, Clock::START, with_ids(&discs), &mut arrays.memory()).unwrap();
-    let steps = if attracts { 1 } else { 2 };
-    for _ in 0..steps {
+    for _ in 0..2 {
         dynamics.step(&AnySize, &mut arrays.memory()).unwrap();
     }
     // Both overlapping pairs, one of them across the corner, moved apart, symmetrically.

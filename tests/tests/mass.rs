@@ -102,7 +102,7 @@ proptest! {
             Assignment::TriangularShapedCloud if distance <= 0.5 => 0.75 - distance * distance,
             Assignment::TriangularShapedCloud => 0.5 * (1.5 - distance).max(0.0) * (1.5 - distance).max(0.0),
         };
-        let mut corrected = 0;
+        let (mut corrected, mut largest) = (None, 0.0_f64);
         for (element, &mass) in nodes.iter().enumerate() {
             let (node_x, node_y) = ((element / grid) as u32, (element % grid) as u32);
             let weight = |node: u32, bits: u32| {
@@ -111,12 +111,14 @@ proptest! {
             let exact = weight(node_x, x) * weight(node_y, y) * f64::from(DISC);
             // Half a unit for the rounding of the product, a little for that of its factors (unit 2⁻³⁰).
             if (f64::from(mass) - exact).abs() > 0.51 {
-                corrected += 1;
+                prop_assert!(corrected.is_none(), "a second node that takes the remainder");
                 prop_assert!((f64::from(mass) - exact).abs() <= 4.51, "{mass} for {exact}");
+                corrected = Some(exact);
             }
+            largest = largest.max(exact);
         }
-        // Only the nearest node takes the remainder.
-        prop_assert!(corrected <= 1);
+        // The nearest node takes the remainder: none has more than it.
+        prop_assert!(corrected.is_none_or(|exact| exact > largest - 1.0), "{corrected:?} of {largest}");
     }
 
     #[test]
@@ -192,6 +194,18 @@ fn a_node_holds_4095_discs_and_not_one_more() {
     assert_eq!(nodes[3 * 16 + 5], LARGEST_NODE_MASS * DISC);
     let crowded = vec![on_a_node; LARGEST_NODE_MASS as usize + 1];
     assert_eq!(nodes_of(Assignment::CloudInCell, 16, &crowded), Err(Crowded));
+}
+
+#[test]
+fn a_node_holds_4095_discs_and_not_one_unit_of_mass_more() {
+    let mut discs = vec![Position::from_bits(0, 0); LARGEST_NODE_MASS as usize];
+    // A disc so near the next node that none or one unit of 2⁻²⁰ discs is left for this one.
+    for (distance_to_next, unit) in [((1 << 7) - 1, 0), (1 << 8, 1)] {
+        let nearly_one_cell = Position::from_bits((1 << 28) - distance_to_next, 0);
+        assert_eq!(nodes_of(Assignment::CloudInCell, 16, &[nearly_one_cell]).unwrap()[0], unit);
+        discs.push(nearly_one_cell);
+        assert_eq!(nodes_of(Assignment::CloudInCell, 16, &discs).is_ok(), unit == 0);
+    }
 }
 
 #[test]

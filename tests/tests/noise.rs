@@ -232,6 +232,7 @@ fn uniform_kicks_stay_within_their_half_width_even_at_extreme_bits() {
     let half_width = libm::sqrtf(6.0 * STEP_LENGTH);
     let key = StepKey::new(1, Purpose::Motion, 0);
     let kick = kick(Noise::Uniform, 1, 0);
+    let mut moduli = Vec::new();
     // Ids whose upper 24 bits of x or y are all equal at this step.
     for (id, of_y, ones) in [
         (24_526_680, false, false),
@@ -246,7 +247,10 @@ fn uniform_kicks_stay_within_their_half_width_even_at_extreme_bits() {
         let extreme = if of_y { y } else { x };
         assert!(extreme.abs() <= half_width && extreme.abs() > half_width * 0.999_999);
         assert_eq!(extreme > 0.0, ones);
+        moduli.push(extreme.abs());
     }
+    // The ends mirror each other, so that the mean over all bits is exactly zero.
+    assert!(moduli.iter().all(|modulus| modulus == &moduli[0]), "{moduli:?}");
 }
 
 #[test]
