@@ -101,6 +101,8 @@ fn crossings_count_every_passage_of_a_border() {
         }
     }
     assert!(crossed > 1000, "only {crossed} crossings");
+    engine.init(&FREE, with_ids(&scattered(2, 200))).unwrap();
+    assert!((0..200).all(|id| engine.crossings(id) == Some((0, 0))), "a new run counts from zero");
 }
 
 #[test]
