@@ -28,11 +28,15 @@ pub fn positions(data: &[u8]) {
     }
 }
 
-/// Writes and reads `state`, whose time is a multiple of as many units as binary64 tells apart.
+/// Writes and reads `state`, whose time is a multiple of as many units as binary64 tells apart. The bytes of a
+/// state may be without discs, text may not.
 fn check_texts(state: &InitialState) {
     let &InitialState { step, time, ref positions } = state;
     let bytes = State { step, time, positions: positions.clone() }.to_bytes();
     assert_eq!(State::from_bytes(&bytes).as_ref().map(|state| &state.positions), Ok(positions));
+    if positions.is_empty() {
+        return;
+    }
     for torus in SIDES.iter().filter_map(|&side| Torus::new(side).ok()) {
         let text = csv::format(&torus, positions);
         assert_eq!(csv::parse(text.as_bytes(), &torus).ok().as_ref(), Some(positions), "{text}");
