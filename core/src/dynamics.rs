@@ -41,7 +41,7 @@ use crate::mesh::{Tables, solve};
 use crate::noise::{Purpose, StepKey, ThermalKick};
 use crate::parameters::{Assignment, LARGEST_PARTICLE_COUNT, Noise, ParameterError, Parameters};
 use crate::repulsion::Repulsion;
-use crate::torus::{Fraction, Position};
+use crate::torus::{Fraction, Position, UNITS};
 use crate::transform::{Complex32, LineTransform};
 use crate::units::TIME_UNITS;
 
@@ -75,6 +75,8 @@ pub struct Step {
 pub enum ForceError {
     /// There is nothing to move: the engine was not initialised, or its initialisation failed.
     NotInitialised,
+    /// The memory lent does not fit the run.
+    Memory,
     /// A mesh node would hold more than 4095 discs.
     Crowded,
 }
@@ -84,6 +86,8 @@ pub enum ForceError {
 pub enum StepError {
     /// There is nothing to move: the engine was not initialised, or its initialisation failed.
     NotInitialised,
+    /// The memory lent does not fit the run.
+    Memory,
     /// A mesh node would hold more than 4095 discs.
     Crowded,
     /// The largest force allows no step of even 2⁻⁴⁰ R0²/D.
@@ -98,6 +102,7 @@ impl From<ForceError> for StepError {
     fn from(error: ForceError) -> Self {
         match error {
             ForceError::NotInitialised => Self::NotInitialised,
+            ForceError::Memory => Self::Memory,
             ForceError::Crowded => Self::Crowded,
         }
     }
@@ -239,7 +244,6 @@ impl Dynamics {
         discs: impl IntoIterator<Item = (u32, Position)>,
         memory: &mut Memory<'_>,
     ) -> Result<Self, InitError> {
-        const UNITS: f64 = 4_294_967_296.0;
         parameters.validate().map_err(InitError::Parameters)?;
         environment::check().map_err(InitError::Environment)?;
         let grid = Grid::new(parameters.grid).ok_or(InitError::Parameters(ParameterError::Grid))?;
@@ -291,6 +295,9 @@ impl Dynamics {
         if self.count == 0 {
             return Err(ForceError::NotInitialised);
         }
+        if memory.capacity() < self.count || !memory.holds_grid(self.grid.nodes()) {
+            return Err(ForceError::Memory);
+        }
         let discs = memory.discs(self.count);
         if self.attracts {
             self.attract(transform, discs)?;
@@ -338,21 +345,20 @@ impl Dynamics {
         });
     }
 
-    /// Computes the forces and tells how long the next step will be (unit 2⁻⁴⁰ R0²/D) and the largest force that
-    /// decides it (rounded up, unit 2⁻²⁴ kBT/R0). Looking changes nothing.
+    /// Computes the forces and tells how long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the
+    /// largest force that decides it (rounded up, unit 2⁻²⁴ kBT/R0). Looking changes nothing.
     ///
     /// # Errors
-    /// A [`StepError`]; the state is not touched either way.
+    /// A [`ForceError`]; the state is not touched either way.
     pub fn next_step<T: LineTransform>(
         &self,
         transform: &T,
         memory: &mut Memory<'_>,
-    ) -> Result<(u64, u64), StepError> {
+    ) -> Result<(u64, u64), ForceError> {
         self.forces(transform, memory)?;
         let discs = memory.discs(self.count);
         let largest_force = largest_force(discs.force_x, discs.force_y);
-        let length = self.limits.step_length(largest_force).ok_or(StepError::StepTooShort)?;
-        Ok((length, largest_force))
+        Ok((self.limits.step_length(largest_force).unwrap_or(0), largest_force))
     }
 
     /// Does one step.
@@ -365,6 +371,9 @@ impl Dynamics {
         memory: &mut Memory<'_>,
     ) -> Result<Step, StepError> {
         let (length, largest_force) = self.next_step(transform, memory)?;
+        if length == 0 {
+            return Err(StepError::StepTooShort);
+        }
         let clock = Clock {
             step: self.clock.step.checked_add(1).ok_or(StepError::TimeOverflow)?,
             time: self.clock.time.checked_add(length).ok_or(StepError::TimeOverflow)?,

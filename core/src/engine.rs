@@ -21,12 +21,10 @@
 
 use crate::digest::State;
 use crate::dynamics::{Clock, Dynamics, ForceError, InitError, Memory, Step, StepError};
+use crate::mesh::LINES;
 use crate::parameters::Parameters;
 use crate::torus::{Fraction, Position};
 use crate::transform::{Complex32, FixedSize};
-
-/// Rows of the spectrum worked on together, times two: 8 complex numbers fill a cache line.
-const LINES: usize = 16;
 
 /// A run on an M × M mesh with room for N discs.
 ///
@@ -179,8 +177,9 @@ impl<const M: usize, const N: usize> Engine<M, N> {
         slots.get(id as usize).map(|&slot| slot as usize)
     }
 
-    /// The run and its memory.
-    fn parts(&mut self) -> (&mut Dynamics, Memory<'_>) {
+    /// The run and its memory, for those who compose the stages themselves: the ids, slots and coordinates are the
+    /// state, the rest is scratch that the next step overwrites.
+    pub fn parts(&mut self) -> (&mut Dynamics, Memory<'_>) {
         let memory = Memory {
             ids: &mut self.ids,
             slots: &mut self.slots,

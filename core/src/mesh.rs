@@ -6,7 +6,7 @@
 //! gradient, and one complex inverse transform, along x and then along y, gives F_x + i·F_y.
 //!
 //! The inverse is the forward transform of exchanged real and imaginary parts (see [`crate::transform`]): the
-//! spectrum is written exchanged, and the field comes out with F_x as its real part.
+//! spectrum of F_y + i·F_x is written exchanged, and what comes out is F_x + i·F_y.
 //!
 //! ```
 //! use meniscus_core::grid::Grid;
@@ -34,6 +34,9 @@
 use crate::grid::Grid;
 use crate::transform::{Complex32, LineTransform};
 
+/// Working lines with which [`solve`] uses whole cache lines: 8 complex numbers, for row m and row −m.
+pub const LINES: usize = 16;
+
 /// What a spectrum is multiplied with, see [`crate::influence`].
 #[derive(Clone, Copy, Debug)]
 pub struct Tables<'a> {
@@ -45,7 +48,7 @@ pub struct Tables<'a> {
 
 /// Turns node masses (M × M, unit 2⁻²⁰ discs) into `field`, F_x + i·F_y on M × M nodes in kBT/R0.
 ///
-/// `lines` is working memory of 2M elements or a multiple of that; with 16M whole cache lines are used, with less than
+/// `lines` is working memory of 2M elements or a multiple of that, best [`LINES`]·M; with less than
 /// 2M nothing is done.
 pub fn solve<T: LineTransform>(
     transform: &T,
@@ -163,9 +166,9 @@ impl Rows {
 
 /// Multiplies row m of the spectrum with influence function and gradient.
 ///
-/// With S = influence · ρ̂ and the gradient g, F̂ = i g S; F̂_x + i·F̂_y with its parts exchanged is
-/// (g_y S_re − g_x S_im) − i (g_x S_re + g_y S_im), and at −k, where S is conjugate and g changes sign,
-/// −(g_y S_re + g_x S_im) + i (g_x S_re − g_y S_im).
+/// With S = influence · ρ̂ and the gradient g, F̂ = i g S. What is to come out exchanged is written as
+/// F̂_y + i·F̂_x, and that exchanged in turn is (g_y S_re − g_x S_im) − i (g_x S_re + g_y S_im); at −k, where S is
+/// conjugate and g changes sign, it is −(g_y S_re + g_x S_im) + i (g_x S_re − g_y S_im).
 fn multiply(grid: usize, tables: &Tables<'_>, index: usize, row: &mut [Complex32], mirror: &mut [Complex32]) {
     let half = grid / 2;
     let influence = tables.influence.get(index * (half + 1)..).unwrap_or(&[]);

@@ -1,7 +1,7 @@
 //! What a run is made of, checked once.
 //!
 //! [`Parameters`] holds plain numbers as a user gives them; [`Parameters::validate`] says what is wrong
-//! with them. Every constructor of the core calls it, so the inside never checks again.
+//! with them. Every constructor of the core calls it, so the inside does not check again.
 //!
 //! ```
 //! use meniscus_core::parameters::{ParameterError, Parameters};
@@ -89,7 +89,7 @@ pub struct Parameters {
     pub noise: Noise,
     /// Ceiling Δt_max of the time step, R0²/D; 2⁻⁴⁰ to 1.
     pub max_step: f64,
-    /// Largest displacement by force in a step, R0; above 0, at most 0.5. The paper's is 1/4.
+    /// Largest displacement by force in a step, R0; 2⁻⁴⁰ to 0.5. The paper's is 1/4.
     pub max_displacement: f64,
     /// Seed of the noise, 0 to 2⁶³ − 1.
     pub seed: u64,

@@ -20,6 +20,7 @@
 //! ```
 
 use crate::cells::Separation;
+use crate::torus::UNITS;
 use crate::units::{FORCE_UNITS, round_half_even};
 
 /// Cut-off distance d_c = 2·2^(1/6), R0 (Eq. 15).
@@ -42,7 +43,6 @@ impl Repulsion {
     /// The repulsion in a box of side `side` (R0), above twice the cut-off.
     #[must_use]
     pub fn new(side: f64) -> Self {
-        const UNITS: f64 = 4_294_967_296.0;
         Self { reach: libm::ceil(CUTOFF / side * UNITS) as u32, unit: (side / UNITS) as f32 }
     }
 

@@ -23,7 +23,7 @@ pub const LARGEST_SIDE: f64 = 65536.0;
 pub const SMALLEST_SIDE: f64 = 1.0 / 65536.0;
 
 /// Number of units of position along a side, 2³².
-const UNITS: f64 = 4294967296.0;
+pub const UNITS: f64 = 4_294_967_296.0;
 
 /// Where a disc is: two coordinates, each a fraction of the side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -16,14 +16,12 @@
 use meniscus_core::digest::State;
 use meniscus_core::dynamics::{Clock, Dynamics, ForceError, InitError, Memory, Step, StepError};
 use meniscus_core::influence::influence_length;
-use meniscus_core::parameters::Parameters;
+use meniscus_core::mesh::LINES;
+use meniscus_core::parameters::{LARGEST_PARTICLE_COUNT, Parameters};
 use meniscus_core::torus::{Fraction, Position};
 use meniscus_core::transform::{AnySize, Complex32};
 use meniscus_core::units::{force_from_units, time_from_units};
 use thiserror::Error;
-
-/// Rows of the spectrum worked on together, times two: 8 complex numbers fill a cache line.
-const LINES: usize = 16;
 
 /// Why a run could not start or go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -31,9 +29,12 @@ pub enum EngineError {
     /// The engine could not be set up.
     #[error("the run cannot be set up: {}", init_message(*.0))]
     Init(InitError),
-    /// A step or the forces were refused; the state is as it was.
+    /// A step was refused; the state is as it was.
     #[error("the step after step {} at time {} R0²/D is refused: {}", .1.step, time_from_units(.1.time), step_message(*.0))]
     Step(StepError, Clock),
+    /// The forces could not be computed.
+    #[error("the forces cannot be computed: {}", step_message(StepError::from(*.0)))]
+    Force(ForceError),
 }
 
 fn init_message(error: InitError) -> String {
@@ -55,6 +56,7 @@ fn init_message(error: InitError) -> String {
 fn step_message(error: StepError) -> &'static str {
     match error {
         StepError::NotInitialised => "there are no discs",
+        StepError::Memory => "the memory does not fit the run",
         StepError::Crowded => "a mesh node would hold more than 4095 discs; use a finer mesh or fewer discs",
         StepError::StepTooShort => {
             "the largest force allows no step of 2⁻⁴⁰ R0²/D; \
@@ -107,7 +109,11 @@ impl Engine {
     ) -> Result<Self, EngineError> {
         // A mesh that is refused must not be allocated first.
         parameters.validate().map_err(|error| EngineError::Init(InitError::Parameters(error)))?;
-        let discs: Vec<(u32, Position)> = discs.into_iter().collect();
+        let discs: Vec<(u32, Position)> = discs.into_iter().take(LARGEST_PARTICLE_COUNT + 1).collect();
+        if discs.len() > LARGEST_PARTICLE_COUNT {
+            let capacity = LARGEST_PARTICLE_COUNT;
+            return Err(EngineError::Init(InitError::TooManyParticles { capacity }));
+        }
         let (count, grid) = (discs.len(), parameters.grid);
         let zero = Complex32::new(0.0, 0.0);
         let mut engine = Self {
@@ -144,27 +150,23 @@ impl Engine {
         dynamics.step(&AnySize, &mut memory).map_err(|error| EngineError::Step(error, clock))
     }
 
-    /// How long the next step will be (unit 2⁻⁴⁰ R0²/D) and the largest force that decides it (rounded up, unit
-    /// 2⁻²⁴ kBT/R0). Looking changes nothing.
+    /// How long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the largest force that decides it
+    /// (rounded up, unit 2⁻²⁴ kBT/R0). Looking changes nothing.
     ///
     /// # Errors
-    /// [`EngineError::Step`] as the step itself would give it.
+    /// [`EngineError::Force`].
     pub fn next_step(&mut self) -> Result<(u64, u64), EngineError> {
-        let clock = self.clock();
         let (dynamics, mut memory) = self.parts();
-        dynamics.next_step(&AnySize, &mut memory).map_err(|error| EngineError::Step(error, clock))
+        dynamics.next_step(&AnySize, &mut memory).map_err(EngineError::Force)
     }
 
     /// The forces on all discs at their present positions, in the order of ids, kBT/R0.
     ///
     /// # Errors
-    /// [`EngineError::Step`].
+    /// [`EngineError::Force`].
     pub fn forces(&mut self) -> Result<Vec<[f64; 2]>, EngineError> {
-        let clock = self.clock();
         let (dynamics, mut memory) = self.parts();
-        dynamics
-            .forces(&AnySize, &mut memory)
-            .map_err(|error: ForceError| EngineError::Step(error.into(), clock))?;
+        dynamics.forces(&AnySize, &mut memory).map_err(EngineError::Force)?;
         let force = |slot: u32| {
             let slot = slot as usize;
             [force_from_units(self.force_x[slot]), force_from_units(self.force_y[slot])]

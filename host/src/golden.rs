@@ -115,7 +115,7 @@ pub enum Culprit {
 impl fmt::Display for Difference {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let step = self.step;
-        let (what, expected, found) = match &self.culprit {
+        let (what_differs, expected, found) = match &self.culprit {
             Culprit::Length(expected, found) => {
                 return write!(
                     formatter,
@@ -131,12 +131,12 @@ impl fmt::Display for Difference {
                     time_from_units(*found)
                 );
             }
-            Culprit::X(expected, found) => ("x", expected, found),
-            Culprit::Y(expected, found) => ("y", expected, found),
-            Culprit::Positions(expected, found) => ("x and y", expected, found),
-            Culprit::Header(expected, found) => ("the header", expected, found),
+            Culprit::X(expected, found) => ("x differs", expected, found),
+            Culprit::Y(expected, found) => ("y differs", expected, found),
+            Culprit::Positions(expected, found) => ("x and y differ", expected, found),
+            Culprit::Header(expected, found) => ("the header differs", expected, found),
         };
-        write!(formatter, "step {step}: {what} differ: expected {expected}, found {found}")
+        write!(formatter, "step {step}: {what_differs}: expected {expected}, found {found}")
     }
 }
 
@@ -232,7 +232,7 @@ impl Golden {
         let wrong =
             |key: &str, expected| GoldenError::Key { file: file.to_owned(), key: key.to_owned(), expected };
         if document.get("format").and_then(Item::as_integer) != Some(FORMAT) {
-            return Err(wrong("format", "1"));
+            return Err(wrong("format", "1: this is no golden file, or one of another version"));
         }
         let text = |key: &str| {
             let found = document.get(key).and_then(Item::as_str).map(str::to_owned);

@@ -14,10 +14,10 @@
 
 use crate::configuration::{Configuration, Lattice, Start};
 use crate::engine::{Engine, EngineError};
-use crate::files::InitialState;
+use crate::files::state::State;
 use crate::start::{self, StartError};
 use meniscus_core::dynamics::Clock;
-use meniscus_core::torus::{Position, Torus, TorusError};
+use meniscus_core::torus::{Torus, TorusError};
 use meniscus_core::units::{TIME_UNITS, time_from_units};
 use thiserror::Error;
 
@@ -50,14 +50,15 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Places the discs as the configuration says. A start from a state file also takes its step and time: the run
-    /// goes on where that state was.
+    /// Places the discs as the configuration says. A start from a file takes its step and time too, if it has
+    /// them: the run goes on where that state was, bit for bit from a state file (the time in extended XYZ is exact up
+    /// to 8192 R0²/D).
     ///
     /// # Errors
     /// A [`SimulationError`].
     pub fn new(configuration: Configuration) -> Result<Self, SimulationError> {
         let torus = torus(&configuration)?;
-        let InitialState { positions, step, time } = initial_state(&configuration, &torus)?;
+        let State { positions, step, time } = initial_state(&configuration, &torus)?;
         let engine = Engine::new(&configuration.parameters(), Clock { step, time }, &positions)?;
         Ok(Self { configuration, torus, engine })
     }
@@ -91,17 +92,18 @@ pub fn torus(configuration: &Configuration) -> Result<Torus, SimulationError> {
 }
 
 /// Where the discs start, and when.
-fn initial_state(configuration: &Configuration, torus: &Torus) -> Result<InitialState, StartError> {
+fn initial_state(configuration: &Configuration, torus: &Torus) -> Result<State, StartError> {
     let count = configuration.system.particles;
-    let at_start = |positions: Vec<Position>| InitialState { positions, step: 0, time: 0 };
     match configuration.start {
-        Start::Random => start::random(torus, count, configuration.seed).map(at_start),
-        Start::Disc { radius } => start::disc(torus, count, radius, configuration.seed).map(at_start),
+        Start::Random => start::random(torus, count, configuration.seed).map(State::at_start),
+        Start::Disc { radius } => start::disc(torus, count, radius, configuration.seed).map(State::at_start),
         Start::Rings { rings, spacing, per_ring } => {
-            start::rings(torus, rings, per_ring, spacing).map(at_start)
+            start::rings(torus, rings, per_ring, spacing).map(State::at_start)
         }
-        Start::Lattice { lattice: Lattice::Square } => start::square_lattice(count).map(at_start),
-        Start::Lattice { lattice: Lattice::Hexagonal } => start::hexagonal_lattice(count).map(at_start),
-        Start::File { ref path } => start::file(torus, path, count),
+        Start::Lattice { lattice: Lattice::Square } => start::square_lattice(count).map(State::at_start),
+        Start::Lattice { lattice: Lattice::Hexagonal } => {
+            start::hexagonal_lattice(count).map(State::at_start)
+        }
+        Start::File { ref path, .. } => start::file(torus, path, count),
     }
 }

@@ -1,5 +1,7 @@
 //! The command-line program as its users start it: a process with arguments, files, output and an exit code.
 
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -172,7 +174,7 @@ fn verify_says_equal_or_names_what_differs() {
     let output = start(folder.path(), &["verify", "golden.toml", "--bisect"]);
     let said = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(1), "{said}");
-    for part in ["step 40: x differ", "equal up to the record of step 20", "steps 21 to 40"] {
+    for part in ["step 40: x differs", "equal up to the record of step 20", "steps 21 to 40"] {
         assert!(said.contains(part), "{part} is not in {said}");
     }
 }
@@ -238,6 +240,42 @@ fn a_second_run_in_a_directory_is_refused_and_loses_nothing() {
     let before = fs::read(folder.path().join("run/final.state")).unwrap();
     refuse(folder.path(), &["run", "small.toml", "--out", "run"], &["run", "not empty", "--out"]);
     assert_eq!(fs::read(folder.path().join("run/final.state")).unwrap(), before);
+}
+
+#[test]
+fn a_golden_file_is_not_overwritten_and_has_to_be_writable() {
+    let folder = folder_with_small();
+    fs::write(folder.path().join("pinned.toml"), "precious").unwrap();
+    let run = |golden| ["run", "small.toml", "--out", "run", "--until", "0.1", "--golden", golden];
+    refuse(folder.path(), &run("pinned.toml"), &["pinned.toml", "verify"]);
+    assert_eq!(fs::read(folder.path().join("pinned.toml")).unwrap(), b"precious");
+    refuse(folder.path(), &run("nowhere/golden.toml"), &["nowhere"]);
+}
+
+#[test]
+fn a_refused_step_leaves_the_state_and_the_force_that_refused_it() {
+    let folder = folder_with_small();
+    fs::write(folder.path().join("two.csv"), "x,y\n20,20\n20,20\n").unwrap();
+    let arguments = [
+        "run",
+        "small.toml",
+        "--out",
+        "run",
+        "--set",
+        "system.particles=2",
+        "--set",
+        "start.kind=file",
+        "--set",
+        "start.path=two.csv",
+        "--set",
+        "motion.max_displacement=1e-12",
+    ];
+    refuse(folder.path(), &arguments, &["step 0", "2⁻⁴⁰", "max_displacement"]);
+    let table = fs::read_to_string(folder.path().join("run/observables.csv")).unwrap();
+    let row: Vec<&str> = table.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!(row[3], "0", "no step is possible: {table}");
+    assert!(row[4].parse::<f64>().unwrap() > 7e5, "{table}");
+    digest(folder.path(), "run");
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn start_in(side: f64) -> impl Strategy<Value = (Start, usize)> {
         (lattice, 1_usize..524_289).prop_map(|(lattice, particles)| (Start::Lattice { lattice }, particles)),
         (any::<String>(), 1_usize..524_289)
             .prop_filter("a path is not empty", |(path, _)| !path.is_empty())
-            .prop_map(|(path, particles)| (Start::File { path: path.into() }, particles)),
+            .prop_map(|(path, particles)| (Start::File { path: path.into(), density: None }, particles)),
     ]
 }
 

@@ -3,10 +3,11 @@
 
 use meniscus::files::extended_xyz::{self, Frame, FrameChoice};
 use meniscus::files::state::{State, StateError};
-use meniscus::files::{FileError, InitialState, atomic, csv, read_positions};
+use meniscus::files::{FileError, atomic, csv, read_positions};
 use meniscus::observables::clusters::Clusters;
 use meniscus::start;
-use meniscus_core::torus::{Position, Torus};
+use meniscus_core::parameters::LARGEST_PARTICLE_COUNT;
+use meniscus_core::torus::{Position, SMALLEST_SIDE, Torus};
 use proptest::prelude::*;
 use std::io::Cursor;
 
@@ -15,7 +16,7 @@ fn torus(side: f64) -> Torus {
 }
 
 fn any_torus() -> impl Strategy<Value = Torus> {
-    prop_oneof![1e-3..65536.0_f64, Just(500.0), Just(65536.0), Just(f64::MIN_POSITIVE)].prop_map(torus)
+    prop_oneof![1e-3..65536.0_f64, Just(500.0), Just(65536.0), Just(SMALLEST_SIDE)].prop_map(torus)
 }
 
 fn any_positions() -> impl Strategy<Value = Vec<Position>> {
@@ -33,7 +34,7 @@ fn frames(torus: &Torus, all: &[Frame<'_>]) -> Vec<u8> {
     text
 }
 
-fn xyz(torus: &Torus, text: &str) -> Result<InitialState, String> {
+fn xyz(torus: &Torus, text: &str) -> Result<State, String> {
     extended_xyz::parse(Cursor::new(text), torus, FrameChoice::Last).map_err(|error| error.to_string())
 }
 
@@ -77,7 +78,7 @@ proptest! {
         let frame = Frame { step, time, time_over_jeans, time_step: 1e-3, positions: &positions, clustered };
         let text = frames(&torus, &[frame]);
         let state = extended_xyz::parse(Cursor::new(text), &torus, FrameChoice::Last).unwrap();
-        prop_assert_eq!(state, InitialState { positions, step, time });
+        prop_assert_eq!(state, State { positions, step, time });
     }
 
     #[test]
@@ -99,8 +100,17 @@ proptest! {
             StateError::Truncated { found, .. } => prop_assert_eq!(found, length as u64),
             StateError::Trailing { expected: said } => prop_assert_eq!(said, expected as u64),
             StateError::Magic => prop_assert_eq!(length, 0),
-            StateError::Version { .. } => prop_assert!(false, "the version was right"),
+            StateError::Version { .. } | StateError::Count { .. } => {
+                prop_assert!(false, "version and number of discs were right");
+            }
         }
+    }
+
+    #[test]
+    fn a_state_of_too_many_discs_is_refused_by_its_header(count in LARGEST_PARTICLE_COUNT as u32 + 1..) {
+        let mut bytes = State { step: 1, time: 2, positions: Vec::new() }.to_bytes();
+        bytes[12..16].copy_from_slice(&count.to_le_bytes());
+        prop_assert_eq!(State::from_bytes(&bytes), Err(StateError::Count { found: count }));
     }
 
     #[test]
@@ -298,7 +308,8 @@ fn what_is_no_state_is_told_apart() {
     assert_eq!(State::from_bytes(&good[..31]), Err(StateError::Truncated { found: 31, expected: 32 }));
     assert_eq!(State::from_bytes(b""), Err(StateError::Magic));
     // Discs that are not there ask for no memory.
-    assert_eq!(changed(15, 255), Err(StateError::Truncated { found: 40, expected: 32 + 8 * 0xFF00_0001 }));
+    assert_eq!(changed(14, 7), Err(StateError::Truncated { found: 40, expected: 32 + 8 * 0x0007_0001 }));
+    assert_eq!(changed(15, 255), Err(StateError::Count { found: 0xFF00_0001 }));
 }
 
 #[test]
@@ -314,11 +325,8 @@ fn the_ending_tells_the_format() {
     atomic::write_atomically(&at("a.xyz"), &text).unwrap();
     atomic::write_atomically(&at("a.extxyz"), &text).unwrap();
 
-    let timed = InitialState { positions: positions.clone(), step: 5, time: 6 };
-    assert_eq!(
-        read_positions(&at("a.csv"), &torus).unwrap(),
-        InitialState { step: 0, time: 0, ..timed.clone() }
-    );
+    let timed = State { positions: positions.clone(), step: 5, time: 6 };
+    assert_eq!(read_positions(&at("a.csv"), &torus).unwrap(), State { step: 0, time: 0, ..timed.clone() });
     for name in ["a.state", "a.xyz", "a.extxyz"] {
         assert_eq!(read_positions(&at(name), &torus).unwrap(), timed, "{name}");
     }

@@ -35,7 +35,7 @@ enum Command {
     Run(run::Arguments),
     /// Print the force on every disc of a file of positions: `id,x,y,fx,fy` in R0 and kBT/R0.
     Forces(forces::Arguments),
-    /// Print length and SHA-256 of a state: of a run's directory, or of a file of positions.
+    /// Print length and SHA-256 of a state: of a run's directory, or of a state file.
     Digest(digest::Arguments),
     /// Repeat a golden run and compare.
     Verify(verify::Arguments),
@@ -77,7 +77,7 @@ enum CommandError {
     #[error(transparent)]
     File(#[from] FileError),
     #[error("Ctrl-C cannot be caught: {0}")]
-    Signal(#[from] ctrlc::Error),
+    Signal(std::io::Error),
     #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]
     NoState(PathBuf),
     #[error("{}: {found}; a golden file needs at least one record", path.display())]

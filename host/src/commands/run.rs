@@ -2,10 +2,10 @@
 
 use super::progress::Progress;
 use super::{CommandError, Source, Verdict, say};
-use crate::configuration::{Configuration, Start};
-use crate::run::{GoldenRequest, Outcome, Run, Stop};
+use crate::run::{GOLDEN_INTERVAL, GoldenRequest, Outcome, Run, Stop};
 use crate::simulation::Simulation;
 use meniscus_core::units::time_from_units;
+use signal_hook::consts::{SIGINT, SIGTERM};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,10 +23,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// When to end, in Jeans' times (in R0²/D without attraction).
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: Option<f64>,
     /// Stop after this many seconds of wall time, the state written.
-    #[arg(long, value_name = "S", value_parser = wall_time)]
+    #[arg(long, value_name = "S", value_parser = wall_time, allow_negative_numbers = true)]
     max_wall: Option<Duration>,
     /// Threads; the scalar engine runs on one.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1), default_value = "1")]
@@ -34,32 +34,32 @@ pub(super) struct Arguments {
     /// Engine.
     #[arg(long, value_parser = ["core"], default_value = "core")]
     engine: String,
-    /// Where to write the golden file, instead of `golden.toml` in the directory.
+    /// Where to write the golden file, which must not exist, instead of `golden.toml` in the directory.
     #[arg(long, value_name = "FILE")]
     golden: Option<PathBuf>,
     /// Steps between golden records.
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..), default_value = "1000")]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..), default_value_t = GOLDEN_INTERVAL)]
     every: u64,
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
     let seed = arguments.seed.map(|seed| format!("seed={seed}"));
-    let until = arguments.until.map(|until| format!("time.until={until:?}"));
+    let until = arguments.until.map(|until| format!("time.until={}", toml_edit::Value::from(until)));
     let configuration = arguments.source.read(seed.into_iter().chain(until))?;
     let directory = match &arguments.out {
         Some(directory) => directory.clone(),
         None => free_directory(arguments.source.name(), configuration.seed),
     };
-    let golden = GoldenRequest {
-        path: arguments.golden.clone().unwrap_or_else(|| directory.join("golden.toml")),
-        every: arguments.every,
+    let golden = match &arguments.golden {
+        Some(path) => GoldenRequest { path: path.clone(), every: arguments.every },
+        None => GoldenRequest { every: arguments.every, ..GoldenRequest::in_directory(&directory) },
     };
     let simulation = Simulation::new(configuration)?;
     announce(&simulation, &directory);
-    let until = until_from_a_file(&simulation.configuration);
+    let density = simulation.configuration.mean_density();
     let watch = stop_signal()?;
     let mut progress = Progress::new(&simulation);
-    let run = Run::create(simulation, &directory, Some(golden))?;
+    let run = Run::create(simulation, &directory, golden)?;
     let begun = Instant::now();
     let outcome = run.to_end(|simulation| {
         progress.show(simulation);
@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
         arguments.max_wall.filter(|&limit| begun.elapsed() >= limit).map(|_| Stop::WallTime)
     });
     progress.finish();
-    conclude(&outcome?, until, output)?;
+    conclude(&outcome?, density, output)?;
     Ok(Verdict::Ok)
 }
 
@@ -93,24 +93,19 @@ fn announce(simulation: &Simulation, directory: &Path) {
     say(&format!("results in {}", directory.display()));
 }
 
-/// The end of the run in the Jeans' time of the same discs read from a file, which is that of the whole box.
-fn until_from_a_file(configuration: &Configuration) -> f64 {
-    let mut from_file = configuration.clone();
-    from_file.start = Start::File { path: PathBuf::new() };
-    configuration.end_time() / from_file.time_scale()
-}
-
-/// Tells how the run ended; if early, how to go on to `until`.
-fn conclude(outcome: &Outcome, until: f64, output: &mut impl Write) -> std::io::Result<()> {
-    let directory = outcome.directory.display();
+/// Tells how the run ended; if early, how to go on with a density of `density` (R0⁻²).
+fn conclude(outcome: &Outcome, density: f64, output: &mut impl Write) -> std::io::Result<()> {
     if let Some(stop) = outcome.stop {
         let why = match stop {
             Stop::Interrupted => "interrupted",
             Stop::WallTime => "the wall time is over",
         };
+        let file = |name| quoted(&outcome.directory.join(name).display().to_string());
         say(&format!(
-            "{why}; to go on: meniscus run {directory}/config.toml --set start.kind=file \
-             --set start.path={directory}/final.state --until {until}"
+            "{why}; to go on: meniscus run {} --set start.kind=file --set start.path={} \
+             --set start.density={density:?}",
+            file("config.toml"),
+            file("final.state")
         ));
     }
     writeln!(
@@ -123,12 +118,19 @@ fn conclude(outcome: &Outcome, until: f64, output: &mut impl Write) -> std::io::
     )
 }
 
-/// A flag that Ctrl-C and termination signals raise.
+/// A flag that Ctrl-C and a request to terminate raise.
 fn stop_signal() -> Result<Arc<AtomicBool>, CommandError> {
     let raised = Arc::new(AtomicBool::new(false));
-    let handle = Arc::clone(&raised);
-    ctrlc::set_handler(move || handle.store(true, Ordering::Relaxed))?;
+    for signal in [SIGINT, SIGTERM] {
+        signal_hook::flag::register(signal, Arc::clone(&raised)).map_err(CommandError::Signal)?;
+    }
     Ok(raised)
+}
+
+/// A word as a shell reads it back.
+fn quoted(word: &str) -> String {
+    let plain = |character: char| character.is_ascii_alphanumeric() || "/._-+,:=@%".contains(character);
+    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
 /// The first of `runs/NAME-seed-N`, `runs/NAME-seed-N-2`, … that does not exist.

@@ -200,7 +200,10 @@ fn start(entries: &Entries, word: &str) -> Start {
         "lattice" => {
             Start::Lattice { lattice: choice(entries, "start.lattice", &LATTICES).unwrap_or_default() }
         }
-        "file" => Start::File { path: PathBuf::from(entries.text("start.path").unwrap_or_default()) },
+        "file" => Start::File {
+            path: PathBuf::from(entries.text("start.path").unwrap_or_default()),
+            density: entries.real("start.density"),
+        },
         _ => Start::Random,
     }
 }

@@ -344,6 +344,13 @@ pub const KEYS: &[Key] = &[
         help: "File of positions, relative to the working directory",
     },
     Key {
+        name: "start.density",
+        kind: ABOVE_ZERO,
+        unit: "R0^-2",
+        default: "that of the box, N/L^2",
+        help: "Mean density that defines Jeans' time",
+    },
+    Key {
         name: "time.until",
         kind: FROM_ZERO,
         unit: TIMES,

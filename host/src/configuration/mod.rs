@@ -38,6 +38,8 @@ pub use sections::{
 pub use system::{Attraction, BOLTZMANN_CONSTANT, Physical, System};
 
 use core::f64::consts::PI;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use meniscus_core::parameters::Parameters;
@@ -46,6 +48,9 @@ use crate::theory::Instability;
 
 /// The version of the format that this program reads and writes.
 pub const VERSION: u32 = 1;
+
+/// More bytes than any configuration has.
+const LARGEST_FILE: u64 = 1 << 20;
 
 /// Everything a run is made of.
 ///
@@ -86,10 +91,14 @@ impl Configuration {
     /// A [`ConfigurationError`] that says in one line what is wrong where.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Self, ConfigurationError> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| ConfigurationError::Unreadable {
-            file: name.clone(),
-            reason: error.to_string(),
-        })?;
+        let unreadable = |reason| ConfigurationError::Unreadable { file: name.clone(), reason };
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+            .map_err(|error| unreadable(error.to_string()))?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(unreadable(format!("it is larger than {LARGEST_FILE} bytes")));
+        }
         Self::from_bytes(&name, &bytes, overrides)
     }
 
@@ -166,14 +175,15 @@ impl Configuration {
     /// of the `per_ring`·n discs of ring n stands for the same area πs²·2/`per_ring` if ring n owns the
     /// annulus up to s√(n(n+1)); the discs around the central one so fill a patch of radius
     /// s√(rings·(rings+1)) and their density is `per_ring`/(2πs²). (Figs. 12 and 13: 183 R0.) A start
-    /// from a file counts as filling the box.
+    /// from a file counts as filling the box unless `start.density` says otherwise.
     #[must_use]
     pub fn mean_density(&self) -> f64 {
         let particles = self.system.particles as f64;
         match self.start {
             Start::Disc { radius } => particles / (PI * radius * radius),
             Start::Rings { spacing, per_ring, .. } => f64::from(per_ring) / (2.0 * PI * spacing * spacing),
-            Start::Random | Start::Lattice { .. } | Start::File { .. } => {
+            Start::File { density: Some(density), .. } => density,
+            Start::Random | Start::Lattice { .. } | Start::File { density: None, .. } => {
                 particles / (self.system.side * self.system.side)
             }
         }

@@ -44,7 +44,7 @@ pub(super) const STARTS: [StartWord; 5] = [
     StartWord { word: "disc", required: &["start.radius"], optional: &[] },
     StartWord { word: "rings", required: &["start.rings", "start.spacing", "start.per_ring"], optional: &[] },
     StartWord { word: "lattice", required: &[], optional: &["start.lattice"] },
-    StartWord { word: "file", required: &["start.path"], optional: &[] },
+    StartWord { word: "file", required: &["start.path"], optional: &["start.density"] },
 ];
 
 /// The words of a table alone, for the table of keys.

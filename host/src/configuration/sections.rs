@@ -111,6 +111,8 @@ pub enum Start {
     File {
         /// Path of the file, as given: relative to the working directory of the program.
         path: PathBuf,
+        /// Mean density ρ_h in Jeans' time, R0⁻²; None for that of the box, N/L².
+        density: Option<f64>,
     },
 }
 

@@ -110,7 +110,8 @@ fn start_value(start: &Start, leaf: &str) -> Option<String> {
         ("spacing", Start::Rings { spacing, .. }) => Some(real(*spacing)),
         ("per_ring", Start::Rings { per_ring, .. }) => Some(per_ring.to_string()),
         ("lattice", Start::Lattice { lattice }) => Some(quoted(word(&LATTICES, lattice))),
-        ("path", Start::File { path }) => Some(quoted(&path.to_string_lossy())),
+        ("path", Start::File { path, .. }) => Some(quoted(&path.to_string_lossy())),
+        ("density", Start::File { density, .. }) => density.map(real),
         _ => None,
     }
 }

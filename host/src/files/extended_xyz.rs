@@ -2,7 +2,7 @@
 //!
 //! A frame is a line with the number of discs, a line of `key=value`, and a line for each disc. Written
 //! are the box as `Lattice`, the columns as `Properties`, then `pbc`, `step`, `time` (R0²/D),
-//! `time_over_jeans` and `dt` (R0²/D). The columns are the species `X`, which to ASE is no chemical element;
+//! `time_over_jeans` and `dt`, the length of the next step (R0²/D). The columns are the species `X`, which to ASE is no chemical element;
 //! the position in R0 with digits that give the same bits again, and z = 0; the id; and perhaps whether the
 //! disc belongs to a cluster (1 or 0).
 //!
@@ -37,7 +37,8 @@
 use super::error::quoted;
 use super::identities::{Rows, coordinate};
 use super::lines::{Lines, Place};
-use super::{FileError, FormatError, InitialState, read_with};
+use super::state::State;
+use super::{FileError, FormatError, read_with};
 use crate::observables::clusters::Clusters;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::{TIME_UNITS, time_from_units};
@@ -57,7 +58,7 @@ pub struct Frame<'a> {
     pub time: u64,
     /// Time in Jeans' times, where there is one.
     pub time_over_jeans: Option<f64>,
-    /// Length of the last step, R0²/D.
+    /// Length of the next step, R0²/D.
     pub time_step: f64,
     /// Positions in id order.
     pub positions: &'a [Position],
@@ -105,7 +106,7 @@ pub enum FrameChoice {
 ///
 /// # Errors
 /// [`FileError::Read`] naming the line and column.
-pub fn read(path: &Path, torus: &Torus, choice: FrameChoice) -> Result<InitialState, FileError> {
+pub fn read(path: &Path, torus: &Torus, choice: FrameChoice) -> Result<State, FileError> {
     read_with(path, |input| parse(input, torus, choice))
 }
 
@@ -114,11 +115,7 @@ pub fn read(path: &Path, torus: &Torus, choice: FrameChoice) -> Result<InitialSt
 /// # Errors
 /// [`FormatError`] for a frame that is not there or cut off, another box, a missing column, a value
 /// that is none, an id missing or used twice.
-pub fn parse(
-    input: impl BufRead + Seek,
-    torus: &Torus,
-    choice: FrameChoice,
-) -> Result<InitialState, FormatError> {
+pub fn parse(input: impl BufRead + Seek, torus: &Torus, choice: FrameChoice) -> Result<State, FormatError> {
     let mut lines = Lines::new(input);
     let place = find(&mut lines, choice)?;
     lines.go_back(place)?;
@@ -133,7 +130,7 @@ pub fn parse(
         let text = lines.next()?.ok_or_else(|| cut_off(line, rows.len(), count))?;
         header.columns.add_row(torus, line, text, &mut rows)?;
     }
-    Ok(InitialState { positions: rows.into_positions()?, step: header.step, time: header.time })
+    Ok(State { positions: rows.into_positions()?, step: header.step, time: header.time })
 }
 
 /// Where the frame chosen begins.

@@ -3,6 +3,7 @@
 
 use super::FormatError;
 use super::error::quoted;
+use meniscus_core::parameters::LARGEST_PARTICLE_COUNT;
 use meniscus_core::torus::{Fraction, Position, Torus};
 
 /// A row of a file.
@@ -31,6 +32,12 @@ impl Rows {
         id: Option<&str>,
         position: Position,
     ) -> Result<(), FormatError> {
+        if self.rows.len() == LARGEST_PARTICLE_COUNT {
+            return Err(FormatError::Whole {
+                found: format!("more than {LARGEST_PARTICLE_COUNT} rows"),
+                expected: format!("at most {LARGEST_PARTICLE_COUNT} discs"),
+            });
+        }
         let id = match id {
             Some(text) => text.parse().map_err(|_| FormatError::Value {
                 line,

@@ -28,22 +28,11 @@ pub mod state;
 pub use error::{FileError, FormatError};
 
 use extended_xyz::FrameChoice;
-use meniscus_core::torus::{Position, Torus};
+use meniscus_core::torus::Torus;
 use state::State;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
-
-/// Where the discs of a file are, and when.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct InitialState {
-    /// Positions in id order.
-    pub positions: Vec<Position>,
-    /// Steps made; 0 where the file does not say.
-    pub step: u64,
-    /// Time, unit 2⁻⁴⁰ R0²/D; 0 where the file does not say.
-    pub time: u64,
-}
 
 /// Reads the positions in the file at `path`, in the box `torus`.
 ///
@@ -52,17 +41,20 @@ pub struct InitialState {
 ///
 /// # Errors
 /// [`FileError::Ending`] for any other ending, [`FileError::Read`] when the file cannot be read or is not
-/// what its ending says.
-pub fn read_positions(path: &Path, torus: &Torus) -> Result<InitialState, FileError> {
+/// what its ending says, or has no disc in it.
+pub fn read_positions(path: &Path, torus: &Torus) -> Result<State, FileError> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    match ending {
-        "csv" => csv::read(path, torus).map(|positions| InitialState { positions, step: 0, time: 0 }),
-        "xyz" | "extxyz" => extended_xyz::read(path, torus, FrameChoice::Last),
-        "state" => {
-            State::read(path).map(|State { step, time, positions }| InitialState { positions, step, time })
-        }
-        _ => Err(FileError::Ending { path: path.to_owned() }),
+    let state = match ending {
+        "csv" => State::at_start(csv::read(path, torus)?),
+        "xyz" | "extxyz" => extended_xyz::read(path, torus, FrameChoice::Last)?,
+        "state" => State::read(path)?,
+        _ => return Err(FileError::Ending { path: path.to_owned() }),
+    };
+    if state.positions.is_empty() {
+        let problem = FormatError::Whole { found: "no disc".to_owned(), expected: "at least 1".to_owned() };
+        return Err(FileError::Read { path: path.to_owned(), problem });
     }
+    Ok(state)
 }
 
 /// Opens the file at `path` and hands it to `parse`, whose complaint then carries the path.

@@ -27,6 +27,7 @@
 use super::atomic::write_atomically;
 use super::{FileError, FormatError, read_with};
 use meniscus_core::digest::{self, FORMAT_VERSION, MAGIC};
+use meniscus_core::parameters::LARGEST_PARTICLE_COUNT;
 use meniscus_core::torus::{Fraction, Position};
 use std::io::Read;
 use std::path::Path;
@@ -70,6 +71,12 @@ pub enum StateError {
         /// Bytes there should be.
         expected: u64,
     },
+    /// More discs than a run can have.
+    #[error("the state has {found} discs, at most {LARGEST_PARTICLE_COUNT} are accepted")]
+    Count {
+        /// Number of discs in the header.
+        found: u32,
+    },
     /// More bytes than the number of discs asks for.
     #[error("the state is followed by other bytes: it ends after {expected}")]
     Trailing {
@@ -79,6 +86,12 @@ pub enum StateError {
 }
 
 impl State {
+    /// These positions at step 0 and time 0.
+    #[must_use]
+    pub fn at_start(positions: Vec<Position>) -> Self {
+        Self { step: 0, time: 0, positions }
+    }
+
     /// The canonical bytes, as the core writes them.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
@@ -165,6 +178,9 @@ impl Header {
         let (step, rest) = rest.split_first_chunk().ok_or(truncated)?;
         let (time, rest) = rest.split_first_chunk().ok_or(truncated)?;
         let count = u32::from_le_bytes(*count);
+        if count as usize > LARGEST_PARTICLE_COUNT {
+            return Err(StateError::Count { found: count });
+        }
         Ok((Self { count, step: u64::from_le_bytes(*step), time: u64::from_le_bytes(*time) }, rest))
     }
 

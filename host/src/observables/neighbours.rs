@@ -22,10 +22,7 @@
 //! assert_eq!(near.len(), 2, "a disc is near itself");
 //! ```
 
-use meniscus_core::torus::{Position, Torus, minimum_image};
-
-/// Number of units of position along a side, 2³².
-const UNITS: f64 = 4294967296.0;
+use meniscus_core::torus::{Position, Torus, UNITS, minimum_image};
 
 /// 2⁶⁴ divided by the golden ratio, odd: its multiples are spread evenly (Knuth, The Art of Computer
 /// Programming, volume 3, section 6.4).

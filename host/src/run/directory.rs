@@ -52,13 +52,15 @@ pub(super) struct Directory {
 }
 
 impl Directory {
+    /// Refuses a directory that has something in it.
+    pub(super) fn refuse_used(path: &Path) -> Result<(), RunError> {
+        let used = fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
+        if used { Err(RunError::NotEmpty(path.to_owned())) } else { Ok(()) }
+    }
+
     /// Makes the directory if it is not there and the files a run begins with.
     pub(super) fn create(path: &Path, simulation: &Simulation) -> Result<Self, RunError> {
-        let cannot_write = |source| RunError::Write { path: path.to_owned(), source };
-        fs::create_dir_all(path).map_err(cannot_write)?;
-        if fs::read_dir(path).map_err(cannot_write)?.next().is_some() {
-            return Err(RunError::NotEmpty(path.to_owned()));
-        }
+        fs::create_dir_all(path).map_err(|source| RunError::Write { path: path.to_owned(), source })?;
         write_atomically(&path.join("config.toml"), simulation.configuration.to_toml().as_bytes())?;
         let mut observables = Growing::create(path.join("observables.csv"))?;
         observables.append(|file| writeln!(file, "{}", Row::HEADER))?;
@@ -117,7 +119,7 @@ impl Directory {
             "engine": "core",
             "threads": 1,
             "ended": match (failed, outcome.stop) {
-                (true, _) => "refused step",
+                (true, _) => "error",
                 (false, None) => "finished",
                 (false, Some(Stop::Interrupted)) => "interrupted",
                 (false, Some(Stop::WallTime)) => "wall time",

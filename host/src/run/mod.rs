@@ -2,12 +2,13 @@
 //!
 //! ```no_run
 //! use meniscus::configuration::Configuration;
-//! use meniscus::run::{Run, Stop};
+//! use meniscus::run::{GoldenRequest, Run, Stop};
 //! use meniscus::simulation::Simulation;
 //! use std::path::Path;
 //!
 //! let simulation = Simulation::new(Configuration::from_preset("fig-12", &[])?)?;
-//! let outcome = Run::create(simulation, Path::new("rings"), None)?.to_end(|_| None::<Stop>)?;
+//! let directory = Path::new("rings");
+//! let outcome = Run::create(simulation, directory, GoldenRequest::in_directory(directory))?.to_end(|_| None::<Stop>)?;
 //! println!("{} after {} steps", outcome.digest, outcome.clock.step);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -41,6 +42,9 @@ pub enum RunError {
     /// The directory has something in it that a run would overwrite.
     #[error("{}: the directory is not empty; name another with --out, or remove it", .0.display())]
     NotEmpty(PathBuf),
+    /// The golden file is there already.
+    #[error("{}: this golden file exists; `meniscus verify` compares with it, or name another with --golden", .0.display())]
+    GoldenExists(PathBuf),
     /// A file could not be written.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {
@@ -91,6 +95,14 @@ pub struct GoldenRequest {
     pub every: u64,
 }
 
+impl GoldenRequest {
+    /// `golden.toml` in a run's directory, a record every [`GOLDEN_INTERVAL`] steps.
+    #[must_use]
+    pub fn in_directory(directory: &Path) -> Self {
+        Self { path: directory.join("golden.toml"), every: GOLDEN_INTERVAL }
+    }
+}
+
 /// A run under way.
 #[derive(Debug)]
 pub struct Run {
@@ -106,23 +118,22 @@ pub struct Run {
 impl Run {
     /// Makes the directory and the files of a run that has not begun.
     ///
-    /// The golden file is `golden.toml` in the directory, a record every [`GOLDEN_INTERVAL`] steps, unless
-    /// `golden` says otherwise.
-    ///
     /// # Errors
-    /// A [`RunError`]; a directory that has something in it is refused.
+    /// A [`RunError`]; a directory that has something in it and a golden file that exists are refused.
     pub fn create(
         simulation: Simulation,
         directory: &Path,
-        golden: Option<GoldenRequest>,
+        golden_request: GoldenRequest,
     ) -> Result<Self, RunError> {
+        Directory::refuse_used(directory)?;
+        if golden_request.path.exists() {
+            return Err(RunError::GoldenExists(golden_request.path));
+        }
         let configuration = &simulation.configuration;
         let Output { observables, trajectory, snapshots } = configuration.output;
         let (scale, now) = (configuration.time_scale(), simulation.engine.clock().time);
         let schedule = |interval: f64| Schedule::new(interval * scale, now);
-        let golden_request = golden
-            .unwrap_or_else(|| GoldenRequest { path: directory.join("golden.toml"), every: GOLDEN_INTERVAL });
-        Ok(Self {
+        let run = Self {
             directory: Directory::create(directory, &simulation)?,
             golden: Golden::new(configuration.to_toml(), "a run"),
             golden_request,
@@ -130,7 +141,10 @@ impl Run {
             trajectory: schedule(trajectory),
             snapshots: schedule(snapshots),
             simulation,
-        })
+        };
+        // That it cannot be written is better known before the run than after it.
+        run.golden.write(&run.golden_request.path)?;
+        Ok(run)
     }
 
     /// Runs to the end. `watch` is called after every step and may stop the run; however it ends, the last state
@@ -138,21 +152,26 @@ impl Run {
     ///
     /// # Errors
     /// A [`RunError`].
-    pub fn to_end(mut self, mut watch: impl FnMut(&Simulation) -> Option<Stop>) -> Result<Outcome, RunError> {
+    pub fn to_end(mut self, watch: impl FnMut(&Simulation) -> Option<Stop>) -> Result<Outcome, RunError> {
+        let result = self.step_to_end(watch);
+        let outcome = self.finish(result.as_ref().ok().copied().flatten(), result.is_err())?;
+        result.map(|_| outcome)
+    }
+
+    fn step_to_end(
+        &mut self,
+        mut watch: impl FnMut(&Simulation) -> Option<Stop>,
+    ) -> Result<Option<Stop>, RunError> {
         let end = self.simulation.end();
-        let mut failure = None;
-        let mut stop = None;
         self.look()?;
-        while self.simulation.engine.clock().time < end && stop.is_none() {
-            if let Err(error) = self.simulation.engine.step() {
-                failure = Some(error);
-                break;
-            }
+        while self.simulation.engine.clock().time < end {
+            self.simulation.engine.step()?;
             self.look()?;
-            stop = watch(&self.simulation);
+            if let Some(stop) = watch(&self.simulation) {
+                return Ok(Some(stop));
+            }
         }
-        let outcome = self.finish(stop, failure.is_some())?;
-        failure.map_or(Ok(outcome), |error| Err(error.into()))
+        Ok(None)
     }
 
     /// Writes what is due at the present state.
@@ -170,10 +189,11 @@ impl Run {
         let positions = self.simulation.engine.positions();
         let clusters = Clusters::find(&self.simulation.torus, &positions);
         let time_over_jeans = self.simulation.time_over_jeans();
-        // The state may be one from which no step is possible: the step itself will say so.
-        let (length, largest_force) = self.simulation.engine.next_step().unwrap_or_default();
+        // If there are no forces, the step will say so.
+        let next_step = self.simulation.engine.next_step().ok();
+        let length = next_step.map_or(0, |(length, _)| length);
         if observables {
-            self.directory.write_row(&Row { clock, time_over_jeans, length, largest_force }, &clusters)?;
+            self.directory.write_row(&Row { clock, time_over_jeans, next_step }, &clusters)?;
         }
         if trajectory {
             self.directory.write_frame(&Frame {
@@ -192,11 +212,9 @@ impl Run {
         Ok(())
     }
 
-    /// Writes the last state, the golden file and the summary.
+    /// Writes the last state, the summary and the golden file.
     fn finish(mut self, stop: Option<Stop>, failed: bool) -> Result<Outcome, RunError> {
         let engine = &self.simulation.engine;
-        self.golden.record(engine.state().digest_by_field());
-        self.golden.write(&self.golden_request.path)?;
         let outcome = Outcome {
             stop,
             clock: engine.clock(),
@@ -204,6 +222,8 @@ impl Run {
             directory: self.directory.path().to_owned(),
         };
         self.directory.finish(&self.simulation, &outcome, failed)?;
+        self.golden.record(self.simulation.engine.state().digest_by_field());
+        self.golden.write(&self.golden_request.path)?;
         Ok(outcome)
     }
 }
@@ -212,10 +232,8 @@ impl Run {
 struct Row {
     clock: Clock,
     time_over_jeans: Option<f64>,
-    /// Of the next step, unit 2⁻⁴⁰ R0²/D.
-    length: u64,
-    /// In this state, unit 2⁻²⁴ kBT/R0.
-    largest_force: u64,
+    /// Length of the next step (unit 2⁻⁴⁰ R0²/D) and the largest force in this state (unit 2⁻²⁴ kBT/R0).
+    next_step: Option<(u64, u64)>,
 }
 
 impl Row {
@@ -224,14 +242,14 @@ impl Row {
                           mass_weighted_cluster_size,largest_cluster";
 
     fn format(&self, clusters: &Clusters) -> String {
-        let time_over_jeans = self.time_over_jeans.map_or(String::new(), |time| time.to_string());
+        let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         format!(
             "{},{},{},{},{},{},{},{},{}",
             self.clock.step,
             time_from_units(self.clock.time),
-            time_over_jeans,
-            time_from_units(self.length),
-            force_from_units(self.largest_force as i64),
+            cell(self.time_over_jeans),
+            cell(self.next_step.map(|(length, _)| time_from_units(length))),
+            cell(self.next_step.map(|(_, force)| force_from_units(i64::try_from(force).unwrap_or(i64::MAX)))),
             clusters.count(),
             clusters.number_average(),
             clusters.mass_average(),

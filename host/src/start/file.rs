@@ -1,7 +1,7 @@
 //! Discs where a file has them.
 
 use super::StartError;
-use crate::files::{InitialState, read_positions};
+use crate::files::{read_positions, state::State};
 use meniscus_core::torus::Torus;
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use std::path::Path;
 /// assert_eq!(start::file(&torus, &path, 2).unwrap().positions.len(), 2);
 /// assert!(start::file(&torus, &path, 3).is_err());
 /// ```
-pub fn file(torus: &Torus, path: &Path, count: usize) -> Result<InitialState, StartError> {
+pub fn file(torus: &Torus, path: &Path, count: usize) -> Result<State, StartError> {
     let state = read_positions(path, torus)?;
     if state.positions.len() != count {
         let found = state.positions.len();

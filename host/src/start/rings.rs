@@ -1,13 +1,10 @@
 //! Discs on concentric rings (Figs. 12, 13).
 
 use super::StartError;
-use meniscus_core::torus::{Position, Torus};
+use meniscus_core::torus::{Position, Torus, UNITS};
 
 /// The middle of the box along an axis, unit L·2⁻³².
 const CENTRE: u32 = 1 << 31;
-
-/// Number of units of position along a side, 2³².
-const UNITS: f64 = 4294967296.0;
 
 /// One disc at the centre of the box and `per_ring`·n discs on each ring n = 1 … `rings`, of radius
 /// `spacing`·n (R0).

@@ -1,7 +1,7 @@
 //! Files of positions.
 
 use meniscus::files::extended_xyz::{self, Frame, FrameChoice};
-use meniscus::files::{InitialState, csv, state::State};
+use meniscus::files::{csv, state::State};
 use meniscus_core::torus::Torus;
 use std::io::Cursor;
 
@@ -14,11 +14,11 @@ pub fn positions(data: &[u8]) {
     if let Ok(state) = State::from_bytes(data) {
         assert_eq!(state.to_bytes(), data);
         let State { step, time, positions } = state;
-        check_texts(&InitialState { step, time: time & !0xFFF, positions });
+        check_texts(&State { step, time: time & !0xFFF, positions });
     }
     for torus in SIDES.iter().filter_map(|&side| Torus::new(side).ok()) {
         if let Ok(positions) = csv::parse(data, &torus) {
-            check_texts(&InitialState { positions, ..InitialState::default() });
+            check_texts(&State { positions, ..State::default() });
         }
         for choice in [FrameChoice::Last, FrameChoice::Number(0), FrameChoice::Number(1)] {
             if let Ok(state) = extended_xyz::parse(Cursor::new(data), &torus, choice) {
@@ -30,8 +30,8 @@ pub fn positions(data: &[u8]) {
 
 /// Writes and reads `state`, whose time is a multiple of as many units as binary64 tells apart. The bytes of a
 /// state may be without discs, text may not.
-fn check_texts(state: &InitialState) {
-    let &InitialState { step, time, ref positions } = state;
+fn check_texts(state: &State) {
+    let &State { step, time, ref positions } = state;
     let bytes = State { step, time, positions: positions.clone() }.to_bytes();
     assert_eq!(State::from_bytes(&bytes).as_ref().map(|state| &state.positions), Ok(positions));
     if positions.is_empty() {
