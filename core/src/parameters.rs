@@ -95,23 +95,27 @@ pub struct Parameters {
     pub seed: u64,
 }
 
-impl Default for Parameters {
+impl Parameters {
     /// Table I's discs in a box of 64 R0 on a mesh of 64 nodes a side.
+    pub const DEFAULT: Self = Self {
+        side: 64.0,
+        capillary_strength: 0.89,
+        capillary_length: 270.0,
+        repulsion: true,
+        grid: 64,
+        assignment: Assignment::TriangularShapedCloud,
+        influence: Influence::Paper,
+        gradient: Gradient::Spectral,
+        noise: Noise::Uniform,
+        max_step: 0.001,
+        max_displacement: 0.25,
+        seed: 1,
+    };
+}
+
+impl Default for Parameters {
     fn default() -> Self {
-        Self {
-            side: 64.0,
-            capillary_strength: 0.89,
-            capillary_length: 270.0,
-            repulsion: true,
-            grid: 64,
-            assignment: Assignment::default(),
-            influence: Influence::default(),
-            gradient: Gradient::default(),
-            noise: Noise::default(),
-            max_step: 0.001,
-            max_displacement: 0.25,
-            seed: 1,
-        }
+        Self::DEFAULT
     }
 }
 

@@ -6,7 +6,7 @@
 
 use core::f64::consts::PI;
 use meniscus_core::engine::Engine;
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise, Parameters};
+use meniscus_core::parameters::{Assignment, Noise, Parameters};
 use meniscus_core::torus::Position;
 use meniscus_core::units::TIME_UNITS;
 use meniscus_tests::long_tests;
@@ -21,16 +21,9 @@ const SIDE: f64 = 5.0;
 const PAIR: Parameters = Parameters {
     side: SIDE,
     capillary_strength: 0.0,
-    capillary_length: 270.0,
-    repulsion: true,
     grid: 16,
     assignment: Assignment::CloudInCell,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
-    noise: Noise::Uniform,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 
 /// Lower ends of the bins, R0; the last has everything from there on.

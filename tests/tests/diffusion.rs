@@ -1,7 +1,7 @@
 //! Free diffusion, and what border crossings are for.
 
 use meniscus_core::engine::Engine;
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise, Parameters};
+use meniscus_core::parameters::{Assignment, Gradient, Noise, Parameters};
 use meniscus_core::torus::{Position, minimum_image};
 use meniscus_core::units::time_from_units;
 use meniscus_tests::long_tests;
@@ -19,16 +19,11 @@ type Gas = Engine<16, DISCS>;
 const FREE: Parameters = Parameters {
     side: SIDE,
     capillary_strength: 0.0,
-    capillary_length: 270.0,
     repulsion: false,
     grid: 16,
     assignment: Assignment::CloudInCell,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
-    noise: Noise::Uniform,
     max_step: 0.05,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 
 /// Where a disc is when its box crossings are counted, unit L·2⁻³².

@@ -5,8 +5,7 @@ use meniscus_core::engine::Engine;
 use meniscus_core::ermak::{Displacement, HalfBox};
 use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
 use meniscus_core::parameters::{
-    Assignment, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, Noise, Parameters,
-    SPACING_RANGE,
+    Assignment, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, Noise, Parameters, SPACING_RANGE,
 };
 use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE};
 use meniscus_core::torus::{LARGEST_SIDE, Position};
@@ -19,16 +18,10 @@ use meniscus_tests::states::{at, scattered, separation, with_ids};
 const BOX: Parameters = Parameters {
     side: 16.0,
     capillary_strength: 0.0,
-    capillary_length: 270.0,
-    repulsion: true,
     grid: 16,
     assignment: Assignment::CloudInCell,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
     noise: Noise::None,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 
 type Roomy = Engine<16, 4200>;

@@ -19,7 +19,7 @@ mod with_another_control_register {
     use core::arch::asm;
     use meniscus_core::dynamics::{Clock, Dynamics, InitError};
     use meniscus_core::environment::EnvironmentError;
-    use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise};
+    use meniscus_core::parameters::{Assignment, Noise};
     use meniscus_tests::arrays::Arrays;
 
     /// Bits of MXCSR (Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1, section 10.2.3).
@@ -40,15 +40,10 @@ mod with_another_control_register {
         side: 16.0,
         capillary_strength: 0.0,
         capillary_length: 1.0,
-        repulsion: true,
         grid: 16,
         assignment: Assignment::CloudInCell,
-        influence: Influence::Paper,
-        gradient: Gradient::Spectral,
         noise: Noise::None,
-        max_step: 0.001,
-        max_displacement: 0.25,
-        seed: 1,
+        ..Parameters::DEFAULT
     };
 
     extern "C" fn construct(attempt: &mut Attempt) {

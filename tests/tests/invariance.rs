@@ -2,7 +2,7 @@
 
 use meniscus_core::dynamics::{Clock, Dynamics};
 use meniscus_core::engine::Engine;
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise, Parameters};
+use meniscus_core::parameters::{Assignment, Noise, Parameters};
 use meniscus_core::torus::Position;
 use meniscus_core::transform::AnySize;
 use meniscus_tests::arrays::Arrays;
@@ -14,15 +14,8 @@ const EVERYTHING: Parameters = Parameters {
     side: 40.0,
     capillary_strength: 5.0,
     capillary_length: 20.0,
-    repulsion: true,
     grid: 32,
-    assignment: Assignment::TriangularShapedCloud,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
-    noise: Noise::Uniform,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 
 type Small = Engine<32, 160>;

@@ -20,17 +20,11 @@ use meniscus_tests::tolerances::{
 /// The attraction alone, in a box whose mesh spacing is near 1.
 const ATTRACTION: Parameters = Parameters {
     side: 30.0,
-    capillary_strength: 0.89,
     capillary_length: 20.0,
     repulsion: false,
     grid: 32,
-    assignment: Assignment::TriangularShapedCloud,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
     noise: Noise::None,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 
 /// Every assignment with every influence function and every gradient.

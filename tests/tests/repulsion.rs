@@ -2,7 +2,7 @@
 
 use meniscus_core::cells::Separation;
 use meniscus_core::engine::Engine;
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise, Parameters};
+use meniscus_core::parameters::{Assignment, Noise, Parameters};
 use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, Repulsion, SMALLEST_DISTANCE};
 use meniscus_core::torus::Position;
 use meniscus_core::units::{FORCE_UNITS, force_from_units};
@@ -15,16 +15,10 @@ use proptest::prelude::*;
 const REPULSION: Parameters = Parameters {
     side: 16.0,
     capillary_strength: 0.0,
-    capillary_length: 270.0,
-    repulsion: true,
     grid: 16,
     assignment: Assignment::CloudInCell,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
     noise: Noise::None,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 
 /// Forces by id, unit 2⁻²⁴ kBT/R0, of discs in a box of `side`.

@@ -2,9 +2,7 @@
 
 use meniscus_core::engine::Engine;
 use meniscus_core::ermak::{StepLimits, largest_force};
-use meniscus_core::parameters::{
-    Assignment, DISPLACEMENT_RANGE, Gradient, Influence, Noise, Parameters, STEP_RANGE,
-};
+use meniscus_core::parameters::{DISPLACEMENT_RANGE, Noise, Parameters, STEP_RANGE};
 use meniscus_core::torus::Position;
 use meniscus_core::units::{FORCE_UNITS, TIME_UNITS, force_from_units, round_half_even, time_from_units};
 use meniscus_tests::states::{at, crowded, lattice, scattered, separation, with_ids};
@@ -110,20 +108,8 @@ fn after_a_step(parameters: &Parameters, discs: &[Position]) -> (Box<Engine<32, 
     (engine, step.length)
 }
 
-const COLD: Parameters = Parameters {
-    side: 32.0,
-    capillary_strength: 0.0,
-    capillary_length: 270.0,
-    repulsion: true,
-    grid: 32,
-    assignment: Assignment::TriangularShapedCloud,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
-    noise: Noise::None,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
-};
+const COLD: Parameters =
+    Parameters { side: 32.0, capillary_strength: 0.0, grid: 32, noise: Noise::None, ..Parameters::DEFAULT };
 
 /// 0.001 R0²/D, rounded down.
 const CEILING: u64 = TIME_UNITS / 1000;

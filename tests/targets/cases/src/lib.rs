@@ -44,15 +44,8 @@ const SMALL: Parameters = Parameters {
     side: 16.0,
     capillary_strength: 5.0,
     capillary_length: 8.0,
-    repulsion: true,
     grid: 16,
-    assignment: Assignment::TriangularShapedCloud,
-    influence: Influence::Paper,
-    gradient: Gradient::Spectral,
-    noise: Noise::Uniform,
-    max_step: 0.001,
-    max_displacement: 0.25,
-    seed: 1,
+    ..Parameters::DEFAULT
 };
 const MIDDLE: Parameters =
     Parameters { side: 64.0, grid: 64, capillary_strength: 20.0, capillary_length: 40.0, ..SMALL };
