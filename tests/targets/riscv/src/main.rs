@@ -30,14 +30,23 @@ fn run_all() -> Result<(), CaseError> {
         // same time.
         unsafe {
             match case.parameters.grid {
-                16 => run(case, &mut *&raw mut ENGINE_16, &mut Output)?,
-                64 => run(case, &mut *&raw mut ENGINE_64, &mut Output)?,
-                128 => run(case, &mut *&raw mut ENGINE_128, &mut Output)?,
-                _ => run(case, &mut *&raw mut ENGINE_512, &mut Output)?,
+                16 => run(case, only(&raw mut ENGINE_16), &mut Output)?,
+                64 => run(case, only(&raw mut ENGINE_64), &mut Output)?,
+                128 => run(case, only(&raw mut ENGINE_128), &mut Output)?,
+                _ => run(case, only(&raw mut ENGINE_512), &mut Output)?,
             }
         }
     }
     Ok(())
+}
+
+/// The one reference to a static.
+///
+/// # Safety
+/// `it` is valid, and there is no other reference to it as long as this one lives.
+unsafe fn only<T>(it: *mut T) -> &'static mut T {
+    // SAFETY: the caller says so.
+    unsafe { &mut *it }
 }
 
 #[panic_handler]

@@ -37,7 +37,7 @@ impl Write for Output {
 pub extern "C" fn run_all() -> i32 {
     // SAFETY: a module without shared memory has one thread, and nothing here calls back into the host, so that this
     // is the only reference to the output while it lives.
-    let output = unsafe { &mut *&raw mut OUTPUT };
+    let output = unsafe { only(&raw mut OUTPUT) };
     output.length = 0;
     match run_each(output) {
         Ok(()) => 0,
@@ -53,10 +53,10 @@ fn run_each(output: &mut Output) -> Result<(), CaseError> {
         // SAFETY: one thread, as above, and no two of these references live at the same time.
         unsafe {
             match case.parameters.grid {
-                16 => run(case, &mut *&raw mut ENGINE_16, output)?,
-                64 => run(case, &mut *&raw mut ENGINE_64, output)?,
-                128 => run(case, &mut *&raw mut ENGINE_128, output)?,
-                _ => run(case, &mut *&raw mut ENGINE_512, output)?,
+                16 => run(case, only(&raw mut ENGINE_16), output)?,
+                64 => run(case, only(&raw mut ENGINE_64), output)?,
+                128 => run(case, only(&raw mut ENGINE_128), output)?,
+                _ => run(case, only(&raw mut ENGINE_512), output)?,
             }
         }
     }
@@ -75,6 +75,15 @@ pub extern "C" fn output_address() -> *const u8 {
 pub extern "C" fn output_length() -> usize {
     // SAFETY: one thread, and no reference to the output outlives a call of `run_all`.
     unsafe { (&raw const OUTPUT.length).read() }
+}
+
+/// The one reference to a static.
+///
+/// # Safety
+/// `it` is valid, and there is no other reference to it as long as this one lives.
+unsafe fn only<T>(it: *mut T) -> &'static mut T {
+    // SAFETY: the caller says so.
+    unsafe { &mut *it }
 }
 
 #[panic_handler]

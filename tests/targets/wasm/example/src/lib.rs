@@ -30,8 +30,9 @@ static mut MODULE: Module = Module { engine: Engine::new(), discs: [[0; 2]; CAPA
 /// # Safety
 /// The reference has to be dropped before this is called again.
 unsafe fn module() -> &'static mut Module {
+    let module = &raw mut MODULE;
     // SAFETY: a module without shared memory has one thread, and the caller holds no other reference.
-    unsafe { &mut *&raw mut MODULE }
+    unsafe { &mut *module }
 }
 
 /// How many discs fit.
