@@ -188,8 +188,8 @@ fn print(case: &Case, stage: &str, digest: &Digest, output: &mut impl Write) -> 
     writeln!(output, "{} {stage} {} {digest}", case.name, digest.length)
 }
 
-/// The discs of a state's canonical bytes, with their ids.
-fn discs(bytes: &'static [u8]) -> Option<impl Iterator<Item = (u32, Position)>> {
+/// The discs of a state's canonical bytes, with their ids; `None` if these are no such bytes.
+pub fn discs(bytes: &'static [u8]) -> Option<impl Iterator<Item = (u32, Position)>> {
     const HEADER: usize = 32;
     let number =
         |at: usize| -> Option<u32> { bytes.get(at..at + 4)?.try_into().ok().map(u32::from_le_bytes) };
