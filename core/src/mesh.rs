@@ -58,21 +58,22 @@ pub fn solve<T: LineTransform>(
     field: &mut [Complex32],
     lines: &mut [Complex32],
 ) {
-    let grid = grid.nodes();
-    if lines.len() < 2 * grid {
+    let side = grid.nodes();
+    let rows_at_once = lines.len() / (2 * side);
+    // The compiler cannot see that these two conditions are one.
+    let Some((upper, lower)) = lines.split_at_mut_checked(rows_at_once * side) else { return };
+    if rows_at_once == 0 {
         return;
     }
-    transform_columns(transform, grid, nodes, field);
-    let rows_at_once = lines.len() / (2 * grid);
-    let (upper, lower) = lines.split_at_mut(rows_at_once * grid);
-    let half = grid / 2;
+    transform_columns(transform, side, nodes, field);
+    let half = side / 2;
     for first in (0..=half).step_by(rows_at_once) {
         let rows = Rows { grid, first, count: rows_at_once.min(half + 1 - first) };
         rows.split_columns(field, upper);
         rows.to_force(transform, tables, upper, lower);
         rows.store(field, upper, lower);
     }
-    for line in field.chunks_exact_mut(grid) {
+    for line in field.chunks_exact_mut(side) {
         transform.forward(line);
     }
 }
@@ -93,7 +94,7 @@ fn transform_columns<T: LineTransform>(transform: &T, grid: usize, nodes: &[u32]
 ///
 /// Row m and its mirror −m of the result take the place of elements m and M − m of every line of the field.
 struct Rows {
-    grid: usize,
+    grid: Grid,
     first: usize,
     count: usize,
 }
@@ -106,12 +107,13 @@ impl Rows {
 
     /// Whether row m is its own mirror image: 0 and Nyquist.
     fn is_own_mirror(&self, index: usize) -> bool {
-        index == 0 || index == self.grid / 2
+        index == 0 || index == self.grid.nodes() / 2
     }
 
     /// Separates the spectra of the two columns in each line: twice that of column x and of x + M/2.
     fn split_columns(&self, field: &[Complex32], upper: &mut [Complex32]) {
-        let (grid, half) = (self.grid, self.grid / 2);
+        let grid = self.grid.nodes();
+        let half = grid / 2;
         for (x, line) in field.chunks_exact(grid).take(half).enumerate() {
             for (row, index) in upper.chunks_exact_mut(grid).zip(self.indices()) {
                 let mirror = (grid - index) & (grid - 1);
@@ -134,10 +136,11 @@ impl Rows {
         upper: &mut [Complex32],
         lower: &mut [Complex32],
     ) {
-        let rows = upper.chunks_exact_mut(self.grid).zip(lower.chunks_exact_mut(self.grid));
+        let grid = self.grid.nodes();
+        let rows = upper.chunks_exact_mut(grid).zip(lower.chunks_exact_mut(grid));
         for ((row, mirror), index) in rows.zip(self.indices()) {
             transform.forward(row);
-            multiply(self.grid, tables, index, row, mirror);
+            multiply(grid, tables, index, row, mirror);
             transform.forward(row);
             if !self.is_own_mirror(index) {
                 transform.forward(mirror);
@@ -147,8 +150,9 @@ impl Rows {
 
     /// Puts the rows into their places in the field.
     fn store(&self, field: &mut [Complex32], upper: &[Complex32], lower: &[Complex32]) {
-        for (x, line) in field.chunks_exact_mut(self.grid).enumerate() {
-            let rows = upper.chunks_exact(self.grid).zip(lower.chunks_exact(self.grid));
+        let grid = self.grid.nodes();
+        for (x, line) in field.chunks_exact_mut(grid).enumerate() {
+            let rows = upper.chunks_exact(grid).zip(lower.chunks_exact(grid));
             for ((row, mirror), index) in rows.zip(self.indices()) {
                 if let (Some(value), Some(&force)) = (line.get_mut(index), row.get(x)) {
                     *value = force;
@@ -156,7 +160,7 @@ impl Rows {
                 if self.is_own_mirror(index) {
                     continue;
                 }
-                if let (Some(value), Some(&force)) = (line.get_mut(self.grid - index), mirror.get(x)) {
+                if let (Some(value), Some(&force)) = (line.get_mut(grid - index), mirror.get(x)) {
                     *value = force;
                 }
             }
