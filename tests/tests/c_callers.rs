@@ -61,9 +61,9 @@ fn library() -> &'static Path {
     })
 }
 
-/// The C compiler: `CC`, else gcc.
+/// The C compiler: `CC`, else cc, which Rust's linker needs too.
 fn c_compiler() -> String {
-    let compiler = std::env::var("CC").unwrap_or_else(|_| "gcc".into());
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".into());
     let found = Command::new(&compiler).arg("--version").output();
     assert!(
         found.is_ok_and(|output| output.status.success()),

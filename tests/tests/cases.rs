@@ -1,11 +1,13 @@
 //! The golden cases of `tests/targets` on this machine, as it is built here: the same lines as on every other.
 
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
+
 use meniscus::observables::clusters::Clusters;
 use meniscus::observables::neighbours::squared_distance;
 use meniscus_cases::{CASES, Case, ROOM, discs, run};
 use meniscus_core::engine::Engine;
 use meniscus_core::repulsion::CUTOFF;
-use meniscus_core::torus::{Position, Torus};
+use meniscus_core::torus::{Position, Torus, UNITS};
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 
@@ -89,7 +91,7 @@ fn start(case: &Case) -> (Torus, Vec<Position>) {
 fn crowded_and_clustered_starts_have_contacts() {
     for case in CASES.iter().filter(|case| case.parameters.grid <= 64) {
         let (torus, positions) = start(case);
-        let reach = CUTOFF / torus.side() * 2.0_f64.powi(32);
+        let reach = CUTOFF / torus.side() * UNITS;
         let pairs = positions.iter().enumerate().flat_map(|(index, &first)| {
             positions[..index].iter().map(move |&second| squared_distance(first, second) as f64)
         });
