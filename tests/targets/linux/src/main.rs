@@ -10,10 +10,16 @@ use core::panic::PanicInfo;
 use meniscus_cases::{CASES, CaseError, ROOM, run};
 use meniscus_core::engine::Engine;
 
-static mut ENGINE_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }> = Engine::new();
-static mut ENGINE_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }> = Engine::new();
-static mut ENGINE_128: Engine<{ ROOM[2].0 }, { ROOM[2].1 }> = Engine::new();
-static mut ENGINE_512: Engine<{ ROOM[3].0 }, { ROOM[3].1 }> = Engine::new();
+/// An engine for each mesh of the cases.
+struct Engines {
+    of_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }>,
+    of_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }>,
+    of_128: Engine<{ ROOM[2].0 }, { ROOM[2].1 }>,
+    of_512: Engine<{ ROOM[3].0 }, { ROOM[3].1 }>,
+}
+
+static mut ENGINES: Engines =
+    Engines { of_16: Engine::new(), of_64: Engine::new(), of_128: Engine::new(), of_512: Engine::new() };
 
 /// Standard output.
 struct Output;
@@ -25,7 +31,7 @@ impl Write for Output {
     }
 }
 
-/// The program's first and only Rust function, called by the entry in `system`.
+/// Where the entry in `system` goes to, once.
 extern "C" fn main() -> ! {
     let code = match run_all() {
         Ok(()) => 0,
@@ -38,15 +44,15 @@ extern "C" fn main() -> ! {
 }
 
 fn run_all() -> Result<(), CaseError> {
+    let engines = &raw mut ENGINES;
+    // SAFETY: the program has one thread, and calls this function once.
+    let engines = unsafe { &mut *engines };
     for case in &CASES {
-        // SAFETY: this program has one thread, and no two of these references live at the same time.
-        unsafe {
-            match case.parameters.grid {
-                16 => run(case, &mut *&raw mut ENGINE_16, &mut Output)?,
-                64 => run(case, &mut *&raw mut ENGINE_64, &mut Output)?,
-                128 => run(case, &mut *&raw mut ENGINE_128, &mut Output)?,
-                _ => run(case, &mut *&raw mut ENGINE_512, &mut Output)?,
-            }
+        match case.parameters.grid {
+            16 => run(case, &mut engines.of_16, &mut Output)?,
+            64 => run(case, &mut engines.of_64, &mut Output)?,
+            128 => run(case, &mut engines.of_128, &mut Output)?,
+            _ => run(case, &mut engines.of_512, &mut Output)?,
         }
     }
     Ok(())
