@@ -54,7 +54,7 @@ pub fn fill_influence(parameters: &Parameters, influence: &mut [f32]) {
 fn squared_wave_number(parameters: &Parameters, index: usize) -> f64 {
     let wave_number = 2.0 * PI * index as f64 / parameters.side;
     match parameters.influence {
-        Influence::Continuum => wave_number * wave_number,
+        Influence::Continuum | Influence::Optimal => wave_number * wave_number,
         Influence::Paper => {
             let spacing = parameters.side / parameters.grid as f64;
             let sine = libm::sin(wave_number * spacing * 0.5) * 2.0 / spacing;

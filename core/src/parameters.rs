@@ -12,12 +12,25 @@
 //! assert_eq!(nonsense.validate(), Err(ParameterError::CapillaryLength));
 //! ```
 
+use crate::fields::Fields;
 use crate::grid::Grid;
 use crate::torus::LARGEST_SIDE;
 
 pub use crate::grid::RANGE as GRID_RANGE;
 
-/// How a disc's mass is spread over mesh nodes, and the field gathered from them.
+/// How the capillary force is summed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Method {
+    /// All of it on the mesh, as in the paper (Eqs. 18–21).
+    #[default]
+    ParticleMesh,
+    /// Particle–particle particle–mesh: what is smooth on the mesh, with [`Influence::Optimal`] and
+    /// [`Gradient::Spectral`], the rest pair by pair up to a cut-off (Hockney and Eastwood, chapter 8).
+    P3m,
+}
+
+/// How a disc's mass is spread over mesh nodes, and the field gathered from them: a B-spline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Assignment {
@@ -26,6 +39,32 @@ pub enum Assignment {
     /// Triangular shaped cloud, order 3: quadratic, 9 nodes.
     #[default]
     TriangularShapedCloud,
+    /// Order 4: piecewise cubic, 16 nodes.
+    Order4,
+    /// Order 5, 25 nodes.
+    Order5,
+    /// Order 6, 36 nodes.
+    Order6,
+    /// Order 7, 49 nodes.
+    Order7,
+}
+
+impl Assignment {
+    /// All of them, from order 2 up.
+    pub const ALL: [Self; 6] = [
+        Self::CloudInCell,
+        Self::TriangularShapedCloud,
+        Self::Order4,
+        Self::Order5,
+        Self::Order6,
+        Self::Order7,
+    ];
+
+    /// The order of the B-spline, which is the number of nodes along an axis: 2 to 7.
+    #[must_use]
+    pub const fn order(self) -> usize {
+        self as usize + 2
+    }
 }
 
 /// Green's function of the interface on the mesh.
@@ -38,6 +77,8 @@ pub enum Influence {
     Paper,
     /// The continuum's, 1/(k² + κ²).
     Continuum,
+    /// The one of Hockney and Eastwood that makes the error of the far part least, for [`Method::P3m`] only.
+    Optimal,
 }
 
 /// How the gradient of the interface is taken.
@@ -77,6 +118,14 @@ pub struct Parameters {
     pub capillary_length: f64,
     /// Whether discs repel each other at contact (Eq. 15).
     pub repulsion: bool,
+    /// How the capillary force is summed.
+    pub method: Method,
+    /// Splitting α of [`Method::P3m`], 1/R0; in [`SPLITTING_RANGE`], and at most [`LARGEST_SPLITTING_OF_SPACING`]
+    /// mesh spacings. Not looked at otherwise.
+    pub splitting: f64,
+    /// Cut-off r_c of the near part of [`Method::P3m`], R0; at least [`SMALLEST_CUTOFF`], below L/2. Not looked at
+    /// otherwise.
+    pub cutoff: f64,
     /// Nodes M along a side of the mesh: a power of two, 16 to 4096.
     pub grid: usize,
     /// Mass assignment.
@@ -85,6 +134,8 @@ pub struct Parameters {
     pub influence: Influence,
     /// Gradient.
     pub gradient: Gradient,
+    /// External fields.
+    pub fields: Fields,
     /// Thermal motion.
     pub noise: Noise,
     /// Ceiling Δt_max of the time step, R0²/D; 2⁻⁴⁰ to 1.
@@ -102,10 +153,14 @@ impl Parameters {
         capillary_strength: 0.89,
         capillary_length: 270.0,
         repulsion: true,
+        method: Method::ParticleMesh,
+        splitting: 0.5,
+        cutoff: 6.0,
         grid: 64,
         assignment: Assignment::TriangularShapedCloud,
         influence: Influence::Paper,
         gradient: Gradient::Spectral,
+        fields: Fields::NONE,
         noise: Noise::Uniform,
         max_step: 0.001,
         max_displacement: 0.25,
@@ -125,6 +180,12 @@ pub const LARGEST_CAPILLARY_STRENGTH: f64 = 1000.0;
 pub const SMALLEST_CAPILLARY_LENGTH: f64 = 0.01;
 /// Smallest and largest mesh spacing h = L/M, R0: finer resolves the inside of a disc, coarser no disc.
 pub const SPACING_RANGE: (f64, f64) = (0.125, 16.0);
+/// Smallest and largest splitting α, 1/R0.
+pub const SPLITTING_RANGE: (f64, f64) = (1e-5, 8.0);
+/// Largest α·h, splitting times mesh spacing: the far part of a coarser mesh is worth nothing.
+pub const LARGEST_SPLITTING_OF_SPACING: f64 = 1.0;
+/// Smallest cut-off of the near part, R0.
+pub const SMALLEST_CUTOFF: f64 = 1.0;
 /// Largest number of discs. Bounds the total force, see [`crate::units`].
 pub const LARGEST_PARTICLE_COUNT: usize = 1 << 19;
 /// Largest seed, 2⁶³ − 1.
@@ -153,6 +214,20 @@ pub enum ParameterError {
     GridTooCoarse,
     /// The mesh spacing L/M is below [`SPACING_RANGE`].
     GridTooFine,
+    /// α is not in [`SPLITTING_RANGE`].
+    Splitting,
+    /// α·h exceeds [`LARGEST_SPLITTING_OF_SPACING`].
+    SplittingTooLarge,
+    /// The cut-off is not a number of at least [`SMALLEST_CUTOFF`].
+    Cutoff,
+    /// The cut-off is not below half the side.
+    CutoffTooLarge,
+    /// The influence function does not belong to the method.
+    Influence,
+    /// The gradient does not belong to the method.
+    Gradient,
+    /// An external field is out of its range, see [`Fields`].
+    Fields,
     /// Δt_max is not in [`STEP_RANGE`].
     MaxStep,
     /// The largest displacement is not in [`DISPLACEMENT_RANGE`].
@@ -193,6 +268,10 @@ impl Parameters {
         if spacing < SPACING_RANGE.0 {
             return Err(ParameterError::GridTooFine);
         }
+        self.validate_method(spacing)?;
+        if !self.fields.is_valid(self.side) {
+            return Err(ParameterError::Fields);
+        }
         if !within(self.max_step, STEP_RANGE) {
             return Err(ParameterError::MaxStep);
         }
@@ -201,6 +280,32 @@ impl Parameters {
         }
         if self.seed > LARGEST_SEED {
             return Err(ParameterError::Seed);
+        }
+        Ok(())
+    }
+
+    /// Checks what belongs to the method, on a mesh of this spacing.
+    fn validate_method(&self, spacing: f64) -> Result<(), ParameterError> {
+        if (self.method == Method::P3m) != (self.influence == Influence::Optimal) {
+            return Err(ParameterError::Influence);
+        }
+        if self.method == Method::ParticleMesh {
+            return Ok(());
+        }
+        if self.gradient != Gradient::Spectral {
+            return Err(ParameterError::Gradient);
+        }
+        if !(self.splitting >= SPLITTING_RANGE.0 && self.splitting <= SPLITTING_RANGE.1) {
+            return Err(ParameterError::Splitting);
+        }
+        if self.splitting * spacing > LARGEST_SPLITTING_OF_SPACING {
+            return Err(ParameterError::SplittingTooLarge);
+        }
+        if self.cutoff.is_nan() || self.cutoff < SMALLEST_CUTOFF {
+            return Err(ParameterError::Cutoff);
+        }
+        if self.cutoff >= 0.5 * self.side {
+            return Err(ParameterError::CutoffTooLarge);
         }
         Ok(())
     }

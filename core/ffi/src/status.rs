@@ -141,6 +141,13 @@ impl From<ParameterError> for MeniscusStatus {
             ParameterError::Grid => Self::Grid,
             ParameterError::GridTooCoarse => Self::GridTooCoarse,
             ParameterError::GridTooFine => Self::GridTooFine,
+            ParameterError::Splitting
+            | ParameterError::SplittingTooLarge
+            | ParameterError::Cutoff
+            | ParameterError::CutoffTooLarge
+            | ParameterError::Influence
+            | ParameterError::Gradient
+            | ParameterError::Fields => Self::Grid,
             ParameterError::MaxStep => Self::MaxStep,
             ParameterError::MaxDisplacement => Self::MaxDisplacement,
             ParameterError::Seed => Self::Seed,

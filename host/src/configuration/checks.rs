@@ -86,6 +86,13 @@ fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<
         ParameterError::CapillaryLength => of_system("capillary_length", system.capillary_length, "R0"),
         ParameterError::Grid => of_key("mesh.grid", configuration.mesh.grid.to_string()),
         ParameterError::GridTooCoarse | ParameterError::GridTooFine => of_grid(),
+        ParameterError::Splitting
+        | ParameterError::SplittingTooLarge
+        | ParameterError::Cutoff
+        | ParameterError::CutoffTooLarge
+        | ParameterError::Influence
+        | ParameterError::Gradient
+        | ParameterError::Fields => of_key("force.method", format!("{error:?}")),
         ParameterError::MaxStep => of_key("motion.max_step", plain(configuration.motion.max_step)),
         ParameterError::MaxDisplacement => {
             of_key("motion.max_displacement", plain(configuration.motion.max_displacement))

@@ -166,6 +166,7 @@ impl Configuration {
             max_step: self.motion.max_step,
             max_displacement: self.motion.max_displacement,
             seed: self.seed,
+            ..Parameters::DEFAULT
         }
     }
 

@@ -43,6 +43,7 @@ fn numbers(bytes: &mut Bytes<'_>) -> Parameters {
         max_step: bytes.number(STEP_RANGE.0, STEP_RANGE.1),
         max_displacement: bytes.number(DISPLACEMENT_RANGE.0, DISPLACEMENT_RANGE.1),
         seed: bytes.bits_64(),
+        ..Parameters::DEFAULT
     }
 }
 

@@ -73,6 +73,7 @@ fn parameters(bytes: &mut Bytes<'_>) -> Parameters {
         max_step: bytes.number(STEP_RANGE.0, STEP_RANGE.1),
         max_displacement: bytes.number(DISPLACEMENT_RANGE.0, DISPLACEMENT_RANGE.1),
         seed: bytes.bits_64(),
+        ..Parameters::DEFAULT
     }
 }
 
