@@ -1,8 +1,10 @@
 //! The canonical bytes of a state and their digest.
 //!
 //! All little-endian: magic `MENISCUS` (8 bytes), format version (u32), number of discs n (u32), step (u64), time
-//! (u64, unit 2⁻⁴⁰ R0²/D), then the x of disc 0 … n−1 (u32 each, unit L·2⁻³²), then the y likewise. Further parts,
-//! if a version adds any, follow as tagged sections. Storage order, capacity and box crossings are not in it.
+//! (u64, unit 2⁻⁴⁰ R0²/D), then the x of disc 0 … n−1 (u32 each, unit L·2⁻³²), then the y likewise. Optional parts follow
+//! as tagged sections: a tag (4 bytes), the number of bytes in the section (u64), the section. There is one so far,
+//! [`STRENGTHS_TAG`], the capillary strengths of disc 0 … n−1 (i32 each, unit 2⁻²⁰), written unless all of them
+//! are 1. Storage order, capacity and box crossings are not in it.
 //!
 //! The digest is SHA-256 over these bytes: `sha256sum` of a state file prints the same.
 //!
@@ -11,7 +13,7 @@
 //! use meniscus_core::torus::Fraction;
 //!
 //! let (x, y) = ([Fraction::from_bits(1)], [Fraction::from_bits(2)]);
-//! let state = State { step: 0, time: 0, slots: &[0], x: &x, y: &y };
+//! let state = State { step: 0, time: 0, slots: &[0], x: &x, y: &y, strengths: &[] };
 //! let digest = state.digest();
 //! assert_eq!(digest.length, 40);
 //! assert_eq!(format!("{digest}").len(), 64);
@@ -27,6 +29,9 @@ pub const MAGIC: [u8; 8] = *b"MENISCUS";
 /// Version of the layout of the bytes.
 pub const FORMAT_VERSION: u32 = 1;
 
+/// The tag of the section that holds capillary strengths.
+pub const STRENGTHS_TAG: [u8; 4] = *b"STRE";
+
 /// What a state's bytes are made of.
 #[derive(Clone, Copy, Debug)]
 pub struct State<'a> {
@@ -40,6 +45,8 @@ pub struct State<'a> {
     pub x: &'a [Fraction],
     /// y of each slot.
     pub y: &'a [Fraction],
+    /// Capillary strength of each slot, unit 2⁻²⁰; empty if all of them are 1.
+    pub strengths: &'a [i32],
 }
 
 /// Length and SHA-256 of a byte string. Displays as 64 hexadecimal digits.
@@ -82,6 +89,19 @@ impl State<'_> {
         sink(&self.time.to_le_bytes());
         self.write_section(self.x, &mut sink);
         self.write_section(self.y, &mut sink);
+        self.write_strengths(&mut sink);
+    }
+
+    /// Hands the section of the strengths to `sink`, if there is one.
+    fn write_strengths(&self, mut sink: impl FnMut(&[u8])) {
+        if self.strengths.is_empty() {
+            return;
+        }
+        sink(&STRENGTHS_TAG);
+        sink(&(4 * self.slots.len() as u64).to_le_bytes());
+        for strength in self.slots.iter().filter_map(|&slot| self.strengths.get(slot as usize)) {
+            sink(&strength.to_le_bytes());
+        }
     }
 
     /// Hands one coordinate of the discs in the order of their ids to `sink`.

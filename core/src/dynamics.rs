@@ -18,9 +18,9 @@
 //!     x: &mut [Fraction::ZERO; 2], y: &mut [Fraction::ZERO; 2],
 //!     crossings_x: &mut [0; 2], crossings_y: &mut [0; 2],
 //!     force_x: &mut [0; 2], force_y: &mut [0; 2],
-//!     displacement_x: &mut [0; 2], displacement_y: &mut [0; 2], next: &mut [0; 2],
+//!     displacement_x: &mut [0; 2], displacement_y: &mut [0; 2], strengths: &mut [0; 2], next: &mut [0; 2],
 //!     nodes: &mut [0; M * M], field: &mut [zero; M * M], lines: &mut [zero; 2 * M],
-//!     influence: &mut [0.0; influence_length(M)], gradient: &mut [0.0; M],
+//!     influence: &mut [0.0; influence_length(M)], gradient: &mut [0.0; M], near: &mut [],
 //! };
 //! let parameters = Parameters { grid: M, side: 16.0, ..Parameters::default() };
 //! let discs = [(0, Position::from_bits(0, 0)), (1, Position::from_bits(1 << 31, 0))];
@@ -30,20 +30,23 @@
 //! assert!(step.length > 0);
 //! ```
 
-use crate::assignment::{self, Crowded};
-use crate::cells::for_each_pair;
+use crate::assignment::DISC;
 use crate::digest::State;
 use crate::environment::{self, EnvironmentError};
 use crate::ermak::{Displacement, StepLimits, displace, largest_force};
+use crate::forces::Forces;
 use crate::grid::Grid;
-use crate::influence::{fill_gradient, fill_influence, influence_length};
-use crate::mesh::{Tables, solve};
+use crate::influence::{fill_gradient, fill_influence};
+use crate::near_part::{fill_table, table_length};
 use crate::noise::{Purpose, StepKey, ThermalKick};
-use crate::parameters::{Assignment, LARGEST_PARTICLE_COUNT, Noise, ParameterError, Parameters};
-use crate::repulsion::Repulsion;
+use crate::pair_force::near_cutoff;
+use crate::parameters::{LARGEST_CAPILLARY_STRENGTH, LARGEST_STRENGTH, Noise, ParameterError, Parameters};
 use crate::torus::{Fraction, Position, UNITS};
-use crate::transform::{Complex32, LineTransform};
+use crate::transform::LineTransform;
 use crate::units::TIME_UNITS;
+
+pub use crate::forces::ForceError;
+pub use crate::memory::Memory;
 
 /// Where a run stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,17 +73,6 @@ pub struct Step {
     pub clock: Clock,
 }
 
-/// Why forces could not be computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ForceError {
-    /// There is nothing to move: the engine was not initialised, or its initialisation failed.
-    NotInitialised,
-    /// The memory lent does not fit the run.
-    Memory,
-    /// A mesh node would hold more than 4095 discs.
-    Crowded,
-}
-
 /// Why a step was refused; the state is as it was before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepError {
@@ -88,7 +80,7 @@ pub enum StepError {
     NotInitialised,
     /// The memory lent does not fit the run.
     Memory,
-    /// A mesh node would hold more than 4095 discs.
+    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047.
     Crowded,
     /// The largest force allows no step of even 2⁻⁴⁰ R0²/D.
     StepTooShort,
@@ -129,71 +121,32 @@ pub enum InitError {
         /// The first id at fault.
         id: u32,
     },
+    /// A disc's capillary strength f exceeds [`LARGEST_STRENGTH`], or V0·f² exceeds
+    /// [`LARGEST_CAPILLARY_STRENGTH`].
+    Strength {
+        /// The first disc at fault.
+        id: u32,
+    },
     /// An array of the memory is too short.
     Memory,
 }
 
-/// The arrays a run works in. The first group has an element for each disc, in storage order except `slots`; n is
-/// at most the length of `ids`.
-#[derive(Debug)]
-pub struct Memory<'a> {
-    /// Id of each disc.
-    pub ids: &'a mut [u32],
-    /// Where the disc of each id is stored.
-    pub slots: &'a mut [u32],
-    /// x, unit L·2⁻³².
-    pub x: &'a mut [Fraction],
-    /// y, unit L·2⁻³².
-    pub y: &'a mut [Fraction],
-    /// Borders crossed along x, + to the right.
-    pub crossings_x: &'a mut [i32],
-    /// Borders crossed along y.
-    pub crossings_y: &'a mut [i32],
-    /// Force along x, unit 2⁻²⁴ kBT/R0.
-    pub force_x: &'a mut [i64],
-    /// Force along y.
-    pub force_y: &'a mut [i64],
-    /// Displacement along x, unit L·2⁻³².
-    pub displacement_x: &'a mut [i32],
-    /// Displacement along y.
-    pub displacement_y: &'a mut [i32],
-    /// Chains of the cell list.
-    pub next: &'a mut [u32],
-    /// M × M: node masses, unit 2⁻²⁰ discs; then, the field being solved, the heads of the cell list.
-    pub nodes: &'a mut [u32],
-    /// M × M: the force field, kBT/R0.
-    pub field: &'a mut [Complex32],
-    /// Working memory of the solver, 2M elements or a multiple.
-    pub lines: &'a mut [Complex32],
-    /// The influence table, (M/2+1)² elements.
-    pub influence: &'a mut [f32],
-    /// The gradient table, M elements.
-    pub gradient: &'a mut [f32],
+/// A disc where a run begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Disc {
+    /// Its number, 0 … n−1.
+    pub id: u32,
+    /// Where it is.
+    pub position: Position,
+    /// Capillary strength f, unit 2⁻²⁰, of either sign: discs i and j attract each other with V0·f_i·f_j. [`DISC`]
+    /// stands for 1.
+    pub strength: i32,
 }
 
-impl Memory<'_> {
-    /// How many discs fit.
-    fn capacity(&self) -> usize {
-        let by_u32 = [self.ids.len(), self.slots.len(), self.next.len()];
-        let by_coordinate = [self.x.len(), self.y.len()];
-        let by_i32 = [
-            self.crossings_x.len(),
-            self.crossings_y.len(),
-            self.displacement_x.len(),
-            self.displacement_y.len(),
-        ];
-        let by_i64 = [self.force_x.len(), self.force_y.len()];
-        let lengths = by_u32.into_iter().chain(by_coordinate).chain(by_i32).chain(by_i64);
-        lengths.min().unwrap_or(0).min(LARGEST_PARTICLE_COUNT)
-    }
-
-    /// Whether the mesh arrays are large enough for M nodes a side.
-    fn holds_grid(&self, grid: usize) -> bool {
-        self.nodes.len() == grid * grid
-            && self.field.len() == grid * grid
-            && self.lines.len() >= 2 * grid
-            && self.influence.len() >= influence_length(grid)
-            && self.gradient.len() >= grid
+/// A disc of strength 1.
+impl From<(u32, Position)> for Disc {
+    fn from((id, position): (u32, Position)) -> Self {
+        Self { id, position, strength: DISC as i32 }
     }
 }
 
@@ -204,14 +157,10 @@ pub struct Dynamics {
     clock: Clock,
     seed: u64,
     limits: StepLimits,
-    repulsion: Repulsion,
+    forces: Forces,
     /// Units of position in 1 R0, 2³²/L.
     units: f32,
-    grid: Grid,
-    assignment: Assignment,
     noise: Noise,
-    attracts: bool,
-    repels: bool,
 }
 
 impl Dynamics {
@@ -223,48 +172,45 @@ impl Dynamics {
             clock: Clock::START,
             seed: 0,
             limits: StepLimits::blank(),
-            repulsion: Repulsion::blank(),
+            forces: Forces::blank(),
             units: 0.0,
-            grid: Grid::SMALLEST,
-            assignment: Assignment::CloudInCell,
             noise: Noise::Uniform,
-            attracts: false,
-            repels: false,
         }
     }
 
     /// Sets up a run that stands at `clock`: checks the parameters and the floating-point environment, fills the
-    /// tables and takes the discs, each with its id, in any order.
+    /// tables and takes the discs, each with its id, in any order: [`Disc`]s, or pairs of an id and a position.
     ///
     /// # Errors
     /// An [`InitError`]; the memory may have been written to.
     pub fn new(
         parameters: &Parameters,
         clock: Clock,
-        discs: impl IntoIterator<Item = (u32, Position)>,
+        discs: impl IntoIterator<Item: Into<Disc>>,
         memory: &mut Memory<'_>,
     ) -> Result<Self, InitError> {
         parameters.validate().map_err(InitError::Parameters)?;
         environment::check().map_err(InitError::Environment)?;
         let grid = Grid::new(parameters.grid).ok_or(InitError::Parameters(ParameterError::Grid))?;
-        if !memory.holds_grid(parameters.grid) {
+        let near = table_length(near_cutoff(parameters));
+        if !memory.holds_grid(parameters.grid) || memory.near.len() < near {
             return Err(InitError::Memory);
         }
         let count = take_discs(discs, memory)?;
+        check_strengths(parameters.capillary_strength, &memory.discs(count))?;
         fill_influence(parameters, memory.influence);
         fill_gradient(parameters, memory.gradient);
+        if let Some(table) = memory.near.get_mut(..near) {
+            fill_table(parameters.splitting, parameters.capillary_length, table);
+        }
         Ok(Self {
             count,
             clock,
             seed: parameters.seed,
             limits: StepLimits::new(parameters.max_step, parameters.max_displacement),
-            repulsion: Repulsion::new(parameters.side),
+            forces: Forces::new(parameters, grid, memory.discs(count).strengths),
             units: (UNITS / parameters.side) as f32,
-            grid,
-            assignment: parameters.assignment,
             noise: parameters.noise,
-            attracts: parameters.capillary_strength > 0.0,
-            repels: parameters.repulsion,
         })
     }
 
@@ -280,11 +226,17 @@ impl Dynamics {
         self.clock
     }
 
-    /// The state as its canonical bytes see it.
+    /// The state as its canonical bytes see it, from the arrays of the memory.
     #[must_use]
-    pub fn state<'a>(&self, slots: &'a [u32], x: &'a [Fraction], y: &'a [Fraction]) -> State<'a> {
+    pub fn state<'a>(
+        &self,
+        slots: &'a [u32],
+        (x, y): (&'a [Fraction], &'a [Fraction]),
+        strengths: &'a [i32],
+    ) -> State<'a> {
         let slots = slots.get(..self.count).unwrap_or(&[]);
-        State { step: self.clock.step, time: self.clock.time, slots, x, y }
+        let strengths = if self.forces.strengths_are_equal() { &[] } else { strengths };
+        State { step: self.clock.step, time: self.clock.time, slots, x, y, strengths }
     }
 
     /// Computes the force on every disc at its present position into `force_x` and `force_y`.
@@ -292,57 +244,7 @@ impl Dynamics {
     /// # Errors
     /// A [`ForceError`]; the state is not touched either way.
     pub fn forces<T: LineTransform>(&self, transform: &T, memory: &mut Memory<'_>) -> Result<(), ForceError> {
-        if self.count == 0 {
-            return Err(ForceError::NotInitialised);
-        }
-        if memory.capacity() < self.count || !memory.holds_grid(self.grid.nodes()) {
-            return Err(ForceError::Memory);
-        }
-        let discs = memory.discs(self.count);
-        if self.attracts {
-            self.attract(transform, discs)?;
-        } else {
-            discs.force_x.fill(0);
-            discs.force_y.fill(0);
-        }
-        if self.repels {
-            self.repel(memory.discs(self.count));
-        }
-        Ok(())
-    }
-
-    /// The capillary attraction by the mesh.
-    fn attract<T: LineTransform>(&self, transform: &T, discs: Memory<'_>) -> Result<(), ForceError> {
-        assignment::deposit(self.assignment, self.grid, discs.x, discs.y, discs.nodes)
-            .map_err(|Crowded| ForceError::Crowded)?;
-        let tables = Tables { influence: discs.influence, gradient: discs.gradient };
-        solve(transform, self.grid, &tables, discs.nodes, discs.field, discs.lines);
-        assignment::gather(
-            self.assignment,
-            self.grid,
-            (discs.x, discs.y),
-            discs.field,
-            (discs.force_x, discs.force_y),
-        );
-        Ok(())
-    }
-
-    /// Adds the repulsion of all pairs.
-    fn repel(&self, discs: Memory<'_>) {
-        let Memory { ids, x, y, force_x, force_y, next, nodes, .. } = discs;
-        let id = |disc: usize| ids.get(disc);
-        let mut add = |disc: usize, (x, y): (i64, i64)| {
-            if let (Some(force_x), Some(force_y)) = (force_x.get_mut(disc), force_y.get_mut(disc)) {
-                *force_x += x;
-                *force_y += y;
-            }
-        };
-        for_each_pair((x, y), self.repulsion.reach(), nodes, next, |first, second, separation| {
-            if let Some((x, y)) = self.repulsion.force(separation, id(first) < id(second)) {
-                add(first, (x, y));
-                add(second, (-x, -y));
-            }
-        });
+        self.forces.compute(transform, self.count, memory)
     }
 
     /// Computes the forces and tells how long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the
@@ -399,35 +301,6 @@ impl Dynamics {
     }
 }
 
-impl Memory<'_> {
-    /// The same memory, cut to `count` discs.
-    fn discs(&mut self, count: usize) -> Memory<'_> {
-        Memory {
-            ids: cut(self.ids, count),
-            slots: cut(self.slots, count),
-            x: cut(self.x, count),
-            y: cut(self.y, count),
-            crossings_x: cut(self.crossings_x, count),
-            crossings_y: cut(self.crossings_y, count),
-            force_x: cut(self.force_x, count),
-            force_y: cut(self.force_y, count),
-            displacement_x: cut(self.displacement_x, count),
-            displacement_y: cut(self.displacement_y, count),
-            next: cut(self.next, count),
-            nodes: self.nodes,
-            field: self.field,
-            lines: self.lines,
-            influence: self.influence,
-            gradient: self.gradient,
-        }
-    }
-}
-
-/// The first `count` elements, or none if there are fewer.
-fn cut<T>(all: &mut [T], count: usize) -> &mut [T] {
-    all.get_mut(..count).unwrap_or(&mut [])
-}
-
 /// Adds the displacements to the positions.
 fn displace_all(discs: Memory<'_>) {
     let along_x = discs.x.iter_mut().zip(discs.crossings_x).zip(discs.displacement_x);
@@ -439,17 +312,19 @@ fn displace_all(discs: Memory<'_>) {
 
 /// Takes the discs in the order given; checks that their ids are 0 … n−1, each once.
 fn take_discs(
-    discs: impl IntoIterator<Item = (u32, Position)>,
+    discs: impl IntoIterator<Item: Into<Disc>>,
     memory: &mut Memory<'_>,
 ) -> Result<usize, InitError> {
     const FREE: u32 = u32::MAX;
     let capacity = memory.capacity();
     let mut count = 0;
-    let places = memory.ids.iter_mut().zip(memory.x.iter_mut().zip(memory.y.iter_mut()));
+    let coordinates = memory.x.iter_mut().zip(memory.y.iter_mut());
+    let places = memory.ids.iter_mut().zip(memory.strengths.iter_mut()).zip(coordinates);
     let mut places = places.take(capacity);
-    for (id, position) in discs {
-        let (place, (x, y)) = places.next().ok_or(InitError::TooManyParticles { capacity })?;
-        (*place, *x, *y) = (id, position.x, position.y);
+    for disc in discs {
+        let ((id, strength), (x, y)) = places.next().ok_or(InitError::TooManyParticles { capacity })?;
+        let disc: Disc = disc.into();
+        (*id, *strength, *x, *y) = (disc.id, disc.strength, disc.position.x, disc.position.y);
         count += 1;
     }
     if count == 0 {
@@ -466,4 +341,16 @@ fn take_discs(
         }
     }
     Ok(count)
+}
+
+/// Checks that no two discs of these strengths are coupled more strongly than
+/// [`LARGEST_CAPILLARY_STRENGTH`], and none deposits more than a mesh node may hold.
+fn check_strengths(capillary_strength: f64, discs: &Memory<'_>) -> Result<(), InitError> {
+    for (&id, &strength) in discs.ids.iter().zip(discs.strengths.iter()) {
+        let modulus = f64::from(strength).abs() / f64::from(DISC);
+        if modulus > LARGEST_STRENGTH || capillary_strength * modulus * modulus > LARGEST_CAPILLARY_STRENGTH {
+            return Err(InitError::Strength { id });
+        }
+    }
+    Ok(())
 }

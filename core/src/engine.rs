@@ -20,8 +20,9 @@
 //! ```
 
 use crate::digest::State;
-use crate::dynamics::{Clock, Dynamics, ForceError, InitError, Memory, Step, StepError};
+use crate::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, Memory, Step, StepError};
 use crate::mesh::LINES;
+use crate::near_part::{LARGEST_TABLE, Segment};
 use crate::parameters::Parameters;
 use crate::torus::{Fraction, Position};
 use crate::transform::{Complex32, FixedSize};
@@ -42,12 +43,14 @@ pub struct Engine<const M: usize, const N: usize> {
     force_y: [i64; N],
     displacement_x: [i32; N],
     displacement_y: [i32; N],
+    strengths: [i32; N],
     next: [u32; N],
     nodes: [[u32; M]; M],
     field: [[Complex32; M]; M],
     lines: [[Complex32; M]; LINES],
     influence: [[f32; M]; M],
     gradient: [f32; M],
+    near: [Segment; LARGEST_TABLE],
 }
 
 impl<const M: usize, const N: usize> Default for Engine<M, N> {
@@ -73,23 +76,26 @@ impl<const M: usize, const N: usize> Engine<M, N> {
             force_y: [0; N],
             displacement_x: [0; N],
             displacement_y: [0; N],
+            strengths: [0; N],
             next: [0; N],
             nodes: [[0; M]; M],
             field: [[ZERO; M]; M],
             lines: [[ZERO; M]; LINES],
             influence: [[0.0; M]; M],
             gradient: [0.0; M],
+            near: [[0.0; 4]; LARGEST_TABLE],
         }
     }
 
-    /// Starts a run at step 0 and time 0 from discs given with their ids 0 … n−1 in any order, 1 ≤ n ≤ N.
+    /// Starts a run at step 0 and time 0 from discs given with their ids 0 … n−1 in any order, 1 ≤ n ≤ N: [`Disc`]s, or
+    /// pairs of an id and a position for discs of strength 1.
     ///
     /// # Errors
     /// An [`InitError`]; the engine then has no discs.
     pub fn init(
         &mut self,
         parameters: &Parameters,
-        discs: impl IntoIterator<Item = (u32, Position)>,
+        discs: impl IntoIterator<Item: Into<Disc>>,
     ) -> Result<(), InitError> {
         self.init_at(parameters, Clock::START, discs)
     }
@@ -102,7 +108,7 @@ impl<const M: usize, const N: usize> Engine<M, N> {
         &mut self,
         parameters: &Parameters,
         clock: Clock,
-        discs: impl IntoIterator<Item = (u32, Position)>,
+        discs: impl IntoIterator<Item: Into<Disc>>,
     ) -> Result<(), InitError> {
         self.dynamics = Dynamics::blank();
         parameters.validate().map_err(InitError::Parameters)?;
@@ -147,7 +153,7 @@ impl<const M: usize, const N: usize> Engine<M, N> {
     /// The state as its canonical bytes see it; gives the digest.
     #[must_use]
     pub fn state(&self) -> State<'_> {
-        self.dynamics.state(&self.slots, &self.x, &self.y)
+        self.dynamics.state(&self.slots, (&self.x, &self.y), &self.strengths)
     }
 
     /// Where disc `id` is.
@@ -191,12 +197,14 @@ impl<const M: usize, const N: usize> Engine<M, N> {
             force_y: &mut self.force_y,
             displacement_x: &mut self.displacement_x,
             displacement_y: &mut self.displacement_y,
+            strengths: &mut self.strengths,
             next: &mut self.next,
             nodes: self.nodes.as_flattened_mut(),
             field: self.field.as_flattened_mut(),
             lines: self.lines.as_flattened_mut(),
             influence: self.influence.as_flattened_mut(),
             gradient: &mut self.gradient,
+            near: &mut self.near,
         };
         (&mut self.dynamics, memory)
     }

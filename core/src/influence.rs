@@ -1,7 +1,8 @@
 //! Influence functions and gradients: what the mesh multiplies a spectrum with.
 //!
 //! The interface Û(k) = 2πV0·ρ̂(k)/(k² + κ²), in units where f·U is an energy (Eq. 18), and the force
-//! F̂ = +i k Û (Eq. 21 with the sign that attracts). Two tables hold all of it, computed once in binary64
+//! F̂ = +i k Û (Eq. 21 with the sign that attracts); the far part of the split force has another Û, see
+//! [`crate::optimal`]. Two tables hold all of it, computed once in binary64
 //! with libm and rounded to binary32:
 //!
 //! - the influence table, (M/2+1) × (M/2+1) entries, element `|m|·(M/2+1) + |l|` for k = 2π(l, m)/L;
@@ -21,6 +22,7 @@
 //! ```
 
 use crate::assignment::DISC;
+use crate::optimal::OptimalInfluence;
 use crate::parameters::{Gradient, Influence, Parameters};
 use core::f64::consts::PI;
 
@@ -39,6 +41,10 @@ pub const fn influence_length(grid: usize) -> usize {
 pub fn fill_influence(parameters: &Parameters, influence: &mut [f32]) {
     let half = parameters.grid / 2;
     let scale = PI * parameters.capillary_strength / (parameters.side * parameters.side) / f64::from(DISC);
+    if parameters.influence == Influence::Optimal {
+        fill_optimal(parameters, scale, influence);
+        return;
+    }
     let kappa = 1.0 / parameters.capillary_length;
     for (m, row) in influence.chunks_exact_mut(half + 1).take(half + 1).enumerate() {
         let along_y = squared_wave_number(parameters, m);
@@ -46,6 +52,31 @@ pub fn fill_influence(parameters: &Parameters, influence: &mut [f32]) {
             let along_x = squared_wave_number(parameters, l);
             *entry =
                 if l == 0 && m == 0 { 0.0 } else { (scale / (along_x + along_y + kappa * kappa)) as f32 };
+        }
+    }
+}
+
+/// Fills the influence table with the optimal influence function times `scale`, which costs the most in the sums over
+/// aliases: the half of the table below its diagonal is the mirror image of the other.
+fn fill_optimal(parameters: &Parameters, scale: f64, influence: &mut [f32]) {
+    let row = parameters.grid / 2 + 1;
+    let optimal = OptimalInfluence {
+        grid: parameters.grid,
+        side: parameters.side,
+        order: parameters.assignment.order(),
+        splitting: parameters.splitting,
+        capillary_length: parameters.capillary_length,
+    };
+    for m in 0..row {
+        for l in 0..=m {
+            let value = scale * optimal.at(l, m);
+            // Nothing instead of next to nothing: subnormal numbers are slow on many machines.
+            let value = if value.abs() < 1e-30 { 0.0 } else { value as f32 };
+            for element in [m * row + l, l * row + m] {
+                if let Some(entry) = influence.get_mut(element) {
+                    *entry = value;
+                }
+            }
         }
     }
 }

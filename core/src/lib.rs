@@ -10,7 +10,7 @@
 //! integers, and what remains is + − × ÷ √ in one fixed order (see each module).
 //!
 //! A datum's way: position → [`assignment::deposit`] → [`mesh::solve`] → [`assignment::gather`] ⊕
-//! [`repulsion`] over [`cells`] → force → [`ermak::largest_force`] → Δt → [`noise`] → position.
+//! [`pair_force`] over [`cells`] ⊕ [`fields`] → force → [`ermak::largest_force`] → Δt → [`noise`] → position.
 //! [`dynamics`] composes the stages over borrowed slices, [`engine::Engine`] owns the arrays.
 //!
 //! Units are R0 (disc radius), kBT and R0²/D throughout; equation numbers are those of Bleibel, Dietrich, Domínguez
@@ -26,10 +26,15 @@ pub mod engine;
 pub mod environment;
 pub mod ermak;
 pub mod fields;
+pub mod forces;
 pub mod grid;
 pub mod influence;
+pub mod memory;
 pub mod mesh;
+pub mod near_part;
 pub mod noise;
+pub mod optimal;
+pub mod pair_force;
 pub mod parameters;
 pub mod repulsion;
 pub mod stencil;

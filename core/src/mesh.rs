@@ -58,6 +58,31 @@ pub fn solve<T: LineTransform>(
     field: &mut [Complex32],
     lines: &mut [Complex32],
 ) {
+    let columns = Columns { nodes, value: |mass| mass as f32 };
+    solve_columns(transform, grid, tables, &columns, field, lines);
+}
+
+/// As [`solve`], for capillary strengths of either sign: the nodes hold two's complement, unit 2⁻²⁰.
+pub fn solve_strengths<T: LineTransform>(
+    transform: &T,
+    grid: Grid,
+    tables: &Tables<'_>,
+    nodes: &[u32],
+    field: &mut [Complex32],
+    lines: &mut [Complex32],
+) {
+    let columns = Columns { nodes, value: |sum| sum as i32 as f32 };
+    solve_columns(transform, grid, tables, &columns, field, lines);
+}
+
+fn solve_columns<T: LineTransform, V: Fn(u32) -> f32>(
+    transform: &T,
+    grid: Grid,
+    tables: &Tables<'_>,
+    columns: &Columns<'_, V>,
+    field: &mut [Complex32],
+    lines: &mut [Complex32],
+) {
     let side = grid.nodes();
     let rows_at_once = lines.len() / (2 * side);
     // The compiler cannot see that these two conditions are one.
@@ -65,7 +90,7 @@ pub fn solve<T: LineTransform>(
     if rows_at_once == 0 {
         return;
     }
-    transform_columns(transform, side, nodes, field);
+    columns.transform(transform, side, field);
     let half = side / 2;
     for first in (0..=half).step_by(rows_at_once) {
         let rows = Rows { grid, first, count: rows_at_once.min(half + 1 - first) };
@@ -78,15 +103,23 @@ pub fn solve<T: LineTransform>(
     }
 }
 
-/// Transforms columns x and x + M/2 along y as one complex line, into line x of `field`, x < M/2.
-fn transform_columns<T: LineTransform>(transform: &T, grid: usize, nodes: &[u32], field: &mut [Complex32]) {
-    let (left, right) = nodes.split_at(nodes.len() / 2);
-    let columns = left.chunks_exact(grid).zip(right.chunks_exact(grid));
-    for (line, (left, right)) in field.chunks_exact_mut(grid).zip(columns) {
-        for (value, (&left, &right)) in line.iter_mut().zip(left.iter().zip(right)) {
-            *value = Complex32::new(left as f32, right as f32);
+/// The columns of the mesh, and what the 32 bits of a node stand for.
+struct Columns<'a, V> {
+    nodes: &'a [u32],
+    value: V,
+}
+
+impl<V: Fn(u32) -> f32> Columns<'_, V> {
+    /// Transforms columns x and x + M/2 along y as one complex line, into line x of `field`, x < M/2.
+    fn transform<T: LineTransform>(&self, transform: &T, grid: usize, field: &mut [Complex32]) {
+        let (left, right) = self.nodes.split_at(self.nodes.len() / 2);
+        let columns = left.chunks_exact(grid).zip(right.chunks_exact(grid));
+        for (line, (left, right)) in field.chunks_exact_mut(grid).zip(columns) {
+            for (value, (&left, &right)) in line.iter_mut().zip(left.iter().zip(right)) {
+                *value = Complex32::new((self.value)(left), (self.value)(right));
+            }
+            transform.forward(line);
         }
-        transform.forward(line);
     }
 }
 

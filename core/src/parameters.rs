@@ -176,6 +176,8 @@ impl Default for Parameters {
 
 /// Largest capillary strength V0, kBT. Bounds the mesh force, see [`crate::units`].
 pub const LARGEST_CAPILLARY_STRENGTH: f64 = 1000.0;
+/// Largest modulus of a disc's capillary strength f: a mesh node holds two such discs.
+pub const LARGEST_STRENGTH: f64 = 1000.0;
 /// Smallest capillary length λ, R0.
 pub const SMALLEST_CAPILLARY_LENGTH: f64 = 0.01;
 /// Smallest and largest mesh spacing h = L/M, R0: finer resolves the inside of a disc, coarser no disc.

@@ -20,13 +20,13 @@
 //! ```
 
 use crate::cells::Separation;
+use crate::pair_force::Pair;
 use crate::torus::UNITS;
-use crate::units::{FORCE_UNITS, round_half_even};
 
 /// Cut-off distance d_c = 2·2^(1/6), R0 (Eq. 15).
 pub const CUTOFF: f64 = 2.244_924_096_618_746;
 
-/// Distance below which the force no longer grows, R0.
+/// Distance below which the force of a pair no longer grows, R0.
 pub const SMALLEST_DISTANCE: f64 = 0.9;
 
 /// The force at [`SMALLEST_DISTANCE`], rounded up, kBT/R0.
@@ -46,11 +46,6 @@ impl Repulsion {
         Self { reach: libm::ceil(CUTOFF / side * UNITS) as u32, unit: (side / UNITS) as f32 }
     }
 
-    /// For statics; of no use before it is replaced.
-    pub(crate) const fn blank() -> Self {
-        Self { reach: 0, unit: 0.0 }
-    }
-
     /// The cut-off in units of L·2⁻³², rounded up.
     #[must_use]
     pub fn reach(&self) -> u32 {
@@ -63,34 +58,17 @@ impl Repulsion {
     /// `first_is_lower` says whether the first disc has the lower id.
     #[must_use]
     pub fn force(&self, separation: Separation, first_is_lower: bool) -> Option<(i64, i64)> {
-        const CUTOFF_SQUARED: f32 = (CUTOFF * CUTOFF) as f32;
-        const SMALLEST_SQUARED: f32 = (SMALLEST_DISTANCE * SMALLEST_DISTANCE) as f32;
-        let (x, y) = (separation.x as f32 * self.unit, separation.y as f32 * self.unit);
-        let squared = x * x + y * y;
-        if squared >= CUTOFF_SQUARED {
-            return None;
-        }
-        if squared >= SMALLEST_SQUARED {
-            let factor = force_over_distance(squared);
-            return Some((quantise(factor * x), quantise(factor * y)));
-        }
-        let force = force_over_distance(SMALLEST_SQUARED) * SMALLEST_DISTANCE as f32;
-        let distance = libm::sqrtf(squared);
-        if distance > 0.0 {
-            return Some((quantise(force * (x / distance)), quantise(force * (y / distance))));
-        }
-        let along_x = quantise(force);
-        Some((if first_is_lower { along_x } else { -along_x }, 0))
+        let pair = Pair { separation, first_is_lower };
+        pair.force(self.unit, CUTOFF_SQUARED, force_over_distance)
     }
 }
 
+/// The square of [`CUTOFF`], R0².
+pub(crate) const CUTOFF_SQUARED: f32 = (CUTOFF * CUTOFF) as f32;
+
 /// F(d)/d = (24/d²)[2(2/d)¹² − (2/d)⁶] from d², in kBT/R0².
-fn force_over_distance(squared: f32) -> f32 {
+pub(crate) fn force_over_distance(squared: f32) -> f32 {
     let inverse = 4.0 / squared;
     let sixth = inverse * inverse * inverse;
     6.0 * inverse * (2.0 * sixth * sixth - sixth)
-}
-
-fn quantise(force: f32) -> i64 {
-    round_half_even(force * FORCE_UNITS)
 }

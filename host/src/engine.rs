@@ -14,10 +14,14 @@
 //! ```
 
 use meniscus_core::digest::State;
-use meniscus_core::dynamics::{Clock, Dynamics, ForceError, InitError, Memory, Step, StepError};
+use meniscus_core::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, Memory, Step, StepError};
 use meniscus_core::influence::influence_length;
 use meniscus_core::mesh::LINES;
-use meniscus_core::parameters::{LARGEST_PARTICLE_COUNT, Parameters};
+use meniscus_core::near_part::{Segment, table_length};
+use meniscus_core::pair_force::near_cutoff;
+use meniscus_core::parameters::{
+    LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, LARGEST_STRENGTH, Parameters,
+};
 use meniscus_core::torus::{Fraction, Position};
 use meniscus_core::transform::{AnySize, Complex32};
 use meniscus_core::units::{force_from_units, time_from_units};
@@ -43,6 +47,10 @@ fn init_message(error: InitError) -> String {
         InitError::Environment(error) => format!(
             "this process's floating-point environment would change the bits ({error:?}); \
              run without flush-to-zero and with rounding to nearest"
+        ),
+        InitError::Strength { id } => format!(
+            "the capillary strength f of disc {id} is too large; at most {LARGEST_STRENGTH}, and V0*f^2 at most \
+             {LARGEST_CAPILLARY_STRENGTH} kBT"
         ),
         InitError::GridMismatch | InitError::Memory => "the memory does not fit the mesh".into(),
         InitError::NoParticles => "there is no disc; at least 1 is needed".into(),
@@ -81,12 +89,14 @@ pub struct Engine {
     force_y: Vec<i64>,
     displacement_x: Vec<i32>,
     displacement_y: Vec<i32>,
+    strengths: Vec<i32>,
     next: Vec<u32>,
     nodes: Vec<u32>,
     field: Vec<Complex32>,
     lines: Vec<Complex32>,
     influence: Vec<f32>,
     gradient: Vec<f32>,
+    near: Vec<Segment>,
 }
 
 impl Engine {
@@ -105,11 +115,11 @@ impl Engine {
     pub fn with_ids(
         parameters: &Parameters,
         clock: Clock,
-        discs: impl IntoIterator<Item = (u32, Position)>,
+        discs: impl IntoIterator<Item: Into<Disc>>,
     ) -> Result<Self, EngineError> {
         // A mesh that is refused must not be allocated first.
         parameters.validate().map_err(|error| EngineError::Init(InitError::Parameters(error)))?;
-        let discs: Vec<(u32, Position)> = discs.into_iter().take(LARGEST_PARTICLE_COUNT + 1).collect();
+        let discs: Vec<Disc> = discs.into_iter().map(Into::into).take(LARGEST_PARTICLE_COUNT + 1).collect();
         if discs.len() > LARGEST_PARTICLE_COUNT {
             let capacity = LARGEST_PARTICLE_COUNT;
             return Err(EngineError::Init(InitError::TooManyParticles { capacity }));
@@ -128,12 +138,14 @@ impl Engine {
             force_y: vec![0; count],
             displacement_x: vec![0; count],
             displacement_y: vec![0; count],
+            strengths: vec![0; count],
             next: vec![0; count],
             nodes: vec![0; grid * grid],
             field: vec![zero; grid * grid],
             lines: vec![zero; grid * LINES],
             influence: vec![0.0; influence_length(grid)],
             gradient: vec![0.0; grid],
+            near: vec![[0.0; 4]; table_length(near_cutoff(parameters))],
         };
         let (dynamics, mut memory) = engine.parts();
         *dynamics = Dynamics::new(parameters, clock, discs, &mut memory).map_err(EngineError::Init)?;
@@ -189,7 +201,7 @@ impl Engine {
     /// The state as its canonical bytes see it; gives the digest.
     #[must_use]
     pub fn state(&self) -> State<'_> {
-        self.dynamics.state(&self.slots, &self.x, &self.y)
+        self.dynamics.state(&self.slots, (&self.x, &self.y), &self.strengths)
     }
 
     /// The positions in the order of ids.
@@ -219,12 +231,14 @@ impl Engine {
             force_y: &mut self.force_y,
             displacement_x: &mut self.displacement_x,
             displacement_y: &mut self.displacement_y,
+            strengths: &mut self.strengths,
             next: &mut self.next,
             nodes: &mut self.nodes,
             field: &mut self.field,
             lines: &mut self.lines,
             influence: &mut self.influence,
             gradient: &mut self.gradient,
+            near: &mut self.near,
         };
         (&mut self.dynamics, memory)
     }

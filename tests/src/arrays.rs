@@ -2,6 +2,7 @@
 
 use meniscus_core::dynamics::Memory;
 use meniscus_core::influence::influence_length;
+use meniscus_core::near_part::{LARGEST_TABLE, Segment};
 use meniscus_core::torus::Fraction;
 use meniscus_core::transform::Complex32;
 
@@ -19,12 +20,14 @@ pub struct Arrays {
     pub force_y: Vec<i64>,
     pub displacement_x: Vec<i32>,
     pub displacement_y: Vec<i32>,
+    pub strengths: Vec<i32>,
     pub next: Vec<u32>,
     pub nodes: Vec<u32>,
     pub field: Vec<Complex32>,
     pub lines: Vec<Complex32>,
     pub influence: Vec<f32>,
     pub gradient: Vec<f32>,
+    pub near: Vec<Segment>,
 }
 
 impl Arrays {
@@ -43,12 +46,14 @@ impl Arrays {
             force_y: vec![0; capacity],
             displacement_x: vec![0; capacity],
             displacement_y: vec![0; capacity],
+            strengths: vec![0; capacity],
             next: vec![0; capacity],
             nodes: vec![0; grid * grid],
             field: vec![zero; grid * grid],
             lines: vec![zero; 2 * grid * rows],
             influence: vec![0.0; influence_length(grid)],
             gradient: vec![0.0; grid],
+            near: vec![[0.0; 4]; LARGEST_TABLE],
         }
     }
 
@@ -65,12 +70,14 @@ impl Arrays {
             force_y: &mut self.force_y,
             displacement_x: &mut self.displacement_x,
             displacement_y: &mut self.displacement_y,
+            strengths: &mut self.strengths,
             next: &mut self.next,
             nodes: &mut self.nodes,
             field: &mut self.field,
             lines: &mut self.lines,
             influence: &mut self.influence,
             gradient: &mut self.gradient,
+            near: &mut self.near,
         }
     }
 }

@@ -122,7 +122,7 @@ fn memory_owned_elsewhere_changes_no_bit() {
             Dynamics::new(&EVERYTHING, Clock::START, discs.iter().copied(), &mut arrays.memory()).unwrap();
         for _ in 0..20 {
             assert_eq!(dynamics.step(&AnySize, &mut arrays.memory()), engine.step());
-            let state = dynamics.state(&arrays.slots, &arrays.x, &arrays.y);
+            let state = dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths);
             assert_eq!(state.digest(), engine.state().digest());
         }
     }

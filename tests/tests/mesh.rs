@@ -94,7 +94,7 @@ fn direct_field(parameters: &Parameters, nodes: &[u32]) -> Vec<[f64; 2]> {
     let phase = |index: i32| 2.0 * PI * f64::from(index.rem_euclid(grid)) / f64::from(grid);
     let squared = |k: f64| match parameters.influence {
         Influence::Paper => 4.0 / (h * h) * libm::pow(libm::sin(k * h / 2.0), 2.0),
-        Influence::Continuum => k * k,
+        Influence::Continuum | Influence::Optimal => k * k,
     };
     let slope = |frequency: i32, k: f64| match parameters.gradient {
         _ if frequency == -grid / 2 => 0.0,

@@ -1,6 +1,6 @@
 //! What is refused at the start: every parameter error and every way a run cannot be set up.
 
-use meniscus_core::dynamics::{Clock, Dynamics, InitError};
+use meniscus_core::dynamics::{Clock, Disc, Dynamics, InitError};
 use meniscus_core::engine::Engine;
 use meniscus_core::grid::Grid;
 use meniscus_core::parameters::{LARGEST_SEED, ParameterError, Parameters};
@@ -190,8 +190,9 @@ fn a_mesh_other_than_the_engines_is_refused() {
 
 #[test]
 fn no_disc_is_refused() {
+    const NOBODY: [Disc; 0] = [];
     let mut engine = Box::new(Engine::<64, 4>::new());
-    assert_eq!(engine.init(&Parameters::default(), []), Err(InitError::NoParticles));
+    assert_eq!(engine.init(&Parameters::default(), NOBODY), Err(InitError::NoParticles));
 }
 
 #[test]

@@ -10,6 +10,7 @@ use meniscus_core::dynamics::{Dynamics, Memory};
 use meniscus_core::grid::Grid;
 use meniscus_core::influence::influence_length;
 use meniscus_core::mesh::LINES;
+use meniscus_core::near_part::{LARGEST_TABLE, Segment};
 use meniscus_core::parameters::LARGEST_PARTICLE_COUNT;
 use meniscus_core::torus::Fraction;
 use meniscus_core::transform::Complex32;
@@ -35,6 +36,8 @@ unsafe impl Element for i32 {}
 unsafe impl Element for i64 {}
 // SAFETY: the same.
 unsafe impl Element for f32 {}
+// SAFETY: four binary32 numbers.
+unsafe impl Element for Segment {}
 // SAFETY: 32 bits, each pattern a fraction.
 unsafe impl Element for Fraction {}
 // SAFETY: two binary32 numbers.
@@ -107,12 +110,14 @@ pub(crate) struct Layout {
     pub(crate) force_y: Span<i64>,
     displacement_x: Span<i32>,
     displacement_y: Span<i32>,
+    pub(crate) strengths: Span<i32>,
     next: Span<u32>,
     nodes: Span<u32>,
     field: Span<Complex32>,
     lines: Span<Complex32>,
     influence: Span<f32>,
     gradient: Span<f32>,
+    near: Span<Segment>,
 }
 
 impl Layout {
@@ -142,12 +147,14 @@ impl Layout {
             crossings_y: Span::take(end, capacity)?,
             displacement_x: Span::take(end, capacity)?,
             displacement_y: Span::take(end, capacity)?,
+            strengths: Span::take(end, capacity)?,
             next: Span::take(end, capacity)?,
             nodes: Span::take(end, nodes.checked_mul(nodes)?)?,
             field: Span::take(end, nodes.checked_mul(nodes)?)?,
             lines: Span::take(end, nodes.checked_mul(LINES)?)?,
             influence: Span::take(end, influence_length(nodes))?,
             gradient: Span::take(end, nodes)?,
+            near: Span::take(end, LARGEST_TABLE)?,
         };
         layout.size = *end;
         isize::try_from(*end).is_ok().then_some(layout)
@@ -227,12 +234,14 @@ pub(crate) unsafe fn parts<'a>(engine: *mut MeniscusEngine) -> (&'a mut Dynamics
             force_y: layout.force_y.exclusive(engine),
             displacement_x: layout.displacement_x.exclusive(engine),
             displacement_y: layout.displacement_y.exclusive(engine),
+            strengths: layout.strengths.exclusive(engine),
             next: layout.next.exclusive(engine),
             nodes: layout.nodes.exclusive(engine),
             field: layout.field.exclusive(engine),
             lines: layout.lines.exclusive(engine),
             influence: layout.influence.exclusive(engine),
             gradient: layout.gradient.exclusive(engine),
+            near: layout.near.exclusive(engine),
         }
     };
     (dynamics, layout, memory)

@@ -390,8 +390,10 @@ pub unsafe extern "C" fn meniscus_digest(
         // SAFETY: the layout is that engine's.
         let (slots, x, y) =
             unsafe { (layout.slots.shared(engine), layout.x.shared(engine), layout.y.shared(engine)) };
+        // SAFETY: the same.
+        let strengths = unsafe { layout.strengths.shared(engine) };
         // SAFETY: `digest` as promised.
-        unsafe { put(digest, dynamics.state(slots, x, y).digest().into()) }
+        unsafe { put(digest, dynamics.state(slots, (x, y), strengths).digest().into()) }
     };
     status_of(run())
 }

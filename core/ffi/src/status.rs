@@ -165,6 +165,7 @@ impl From<InitError> for MeniscusStatus {
             InitError::NoParticles => Self::NoParticles,
             InitError::TooManyParticles { .. } => Self::TooManyParticles,
             InitError::Id { .. } => Self::Id,
+            InitError::Strength { .. } => Self::CapillaryStrength,
             InitError::Memory => Self::Memory,
         }
     }

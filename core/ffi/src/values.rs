@@ -94,10 +94,12 @@ impl From<&Parameters> for MeniscusParameters {
             assignment: match parameters.assignment {
                 Assignment::CloudInCell => MeniscusAssignment::CloudInCell as u32,
                 Assignment::TriangularShapedCloud => MeniscusAssignment::TriangularShapedCloud as u32,
+                other => other.order() as u32,
             },
             influence: match parameters.influence {
                 Influence::Paper => MeniscusInfluence::Paper as u32,
                 Influence::Continuum => MeniscusInfluence::Continuum as u32,
+                Influence::Optimal => 3,
             },
             gradient: match parameters.gradient {
                 Gradient::Spectral => MeniscusGradient::Spectral as u32,
@@ -154,6 +156,7 @@ impl TryFrom<&MeniscusParameters> for Parameters {
             max_step: parameters.max_step,
             max_displacement: parameters.max_displacement,
             seed: parameters.seed,
+            ..Self::DEFAULT
         })
     }
 }

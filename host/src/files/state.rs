@@ -98,7 +98,8 @@ impl State {
         let slots: Vec<u32> = (0..).take(self.positions.len()).collect();
         let x: Vec<Fraction> = self.positions.iter().map(|position| position.x).collect();
         let y: Vec<Fraction> = self.positions.iter().map(|position| position.y).collect();
-        let state = digest::State { step: self.step, time: self.time, slots: &slots, x: &x, y: &y };
+        let state =
+            digest::State { step: self.step, time: self.time, slots: &slots, x: &x, y: &y, strengths: &[] };
         let mut bytes = Vec::with_capacity(HEADER_LENGTH + DISC_LENGTH * self.positions.len());
         state.write(|part| bytes.extend_from_slice(part));
         bytes
