@@ -147,8 +147,8 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Table I's discs in a box of 64 R0 on a mesh of 64 nodes a side.
-    pub const DEFAULT: Self = Self {
+    /// Table I's discs in a box of 64 R0, with the paper's force on a mesh of 64 nodes a side.
+    pub const PAPER: Self = Self {
         side: 64.0,
         capillary_strength: 0.89,
         capillary_length: 270.0,
@@ -166,6 +166,9 @@ impl Parameters {
         max_displacement: 0.25,
         seed: 1,
     };
+
+    /// The same.
+    pub const DEFAULT: Self = Self::PAPER;
 }
 
 impl Default for Parameters {
@@ -184,8 +187,9 @@ pub const SMALLEST_CAPILLARY_LENGTH: f64 = 0.01;
 pub const SPACING_RANGE: (f64, f64) = (0.125, 16.0);
 /// Smallest and largest splitting α, 1/R0.
 pub const SPLITTING_RANGE: (f64, f64) = (1e-5, 8.0);
-/// Largest α·h, splitting times mesh spacing: the far part of a coarser mesh is worth nothing.
-pub const LARGEST_SPLITTING_OF_SPACING: f64 = 1.0;
+/// Largest α·h, splitting times mesh spacing: the far part of a coarser mesh is worth little, and its influence function
+/// exceeds the bound in [`crate::units`].
+pub const LARGEST_SPLITTING_OF_SPACING: f64 = 0.7;
 /// Smallest cut-off of the near part, R0.
 pub const SMALLEST_CUTOFF: f64 = 1.0;
 /// Largest number of discs. Bounds the total force, see [`crate::units`].
