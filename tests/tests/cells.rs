@@ -30,12 +30,15 @@ fn all_pairs(discs: &[Position], reach: u32) -> Vec<(usize, usize, (i32, i32))> 
         let half = 1_i64 << 31;
         ((plain + half).rem_euclid(1 << 32) - half) as i32
     };
+    let squared = |length: u64| u128::from(length) * u128::from(length);
+    let farthest = squared(u64::from(reach) + u64::from(reach) / 65536 + 1);
     let mut pairs = Vec::new();
     for (lower, first) in discs.iter().enumerate() {
         for (higher, second) in discs.iter().enumerate().skip(lower + 1) {
             let x = nearest(first.x.to_bits(), second.x.to_bits());
             let y = nearest(first.y.to_bits(), second.y.to_bits());
-            if x.unsigned_abs() <= reach && y.unsigned_abs() <= reach {
+            let distance = squared(x.unsigned_abs().into()) + squared(y.unsigned_abs().into());
+            if x.unsigned_abs() <= reach && y.unsigned_abs() <= reach && distance <= farthest {
                 pairs.push((lower, higher, (x, y)));
             }
         }
@@ -106,7 +109,7 @@ proptest! {
 }
 
 #[test]
-fn one_to_five_cells_a_side_find_the_same_pairs() {
+fn one_to_six_cells_a_side_find_the_same_pairs() {
     let discs = scattered(1, 200);
     let reach = u32::MAX / 5;
     for cells in 0..=6_usize {
