@@ -2,7 +2,7 @@
 //!
 //! Everything here is written from the equations of the model alone and shares no code with the engine:
 //! [`bessel`] gives K₀ and K₁, [`images`] sums them over the periodic images, [`ewald`] reaches the same
-//! forces without any Bessel function, and [`wca`] is the contact repulsion in closed form.
+//! forces without any Bessel function, [`near_part`] is what its short-ranged part is made of, and [`wca`] is the contact repulsion in closed form.
 //!
 //! Lengths are in disc radii R₀, energies in k_B T, forces in k_B T/R₀. Positions are `[x, y]` in a square
 //! periodic box; any real numbers are accepted and taken modulo the side.
@@ -10,7 +10,7 @@
 pub mod bessel;
 pub mod ewald;
 pub mod images;
-mod near_part;
+pub mod near_part;
 pub mod wca;
 
 /// The image of a separation (R₀) nearest to zero in a periodic box of the given `side` (R₀).

@@ -42,6 +42,14 @@ impl NearPart {
     }
 }
 
+/// Magnitude (k_B T/R₀) of the near part at splitting α = `splitting` (1/R₀) of the attraction of two discs
+/// `separation` (R₀) apart, no images: (V₀r/4) ∫₀^{t*} t⁻² exp(−κ²t − r²/4t) dt with t* = 1/(4α²).
+pub fn near_force(separation: f64, capillary_strength: f64, capillary_length: f64, splitting: f64) -> f64 {
+    let screened = 0.25 / (capillary_length * capillary_length * splitting * splitting);
+    let argument = splitting * splitting * separation * separation;
+    capillary_strength / separation * NearIntegral::new(screened).force(argument)
+}
+
 /// The integrals of the near part, dimensionless: with a = α²r², b = κ²/4α² and t = 1/(4α²v),
 /// r F_near/V₀ = (r²/4) ∫₀^{t*} t⁻² exp(−κ²t − r²/4t) dt = a ∫₁^∞ exp(−av − b/v) dv and
 /// −U_near/V₀ = ½ ∫₀^{t*} t⁻¹ exp(−κ²t − r²/4t) dt = ½ ∫₁^∞ exp(−av − b/v) dv/v.
@@ -202,6 +210,15 @@ mod tests {
         for a in arguments(200) {
             assert!((integral.force(a) / libm::exp(-a) - 1.0).abs() < 1e-13);
         }
+    }
+
+    #[test]
+    fn the_near_force_has_its_dimensions() {
+        // V₀/r · exp(−α²r²) without screening, (V₀/λ)·K₁(r/λ) with much of it.
+        let gauss = 0.89 / 3.0 * libm::exp(-0.81);
+        assert!((near_force(3.0, 0.89, f64::INFINITY, 0.3) / gauss - 1.0).abs() < 1e-13);
+        let bare = 0.89 / 2.0 * k1(1.5);
+        assert!((near_force(3.0, 0.89, 2.0, 0.01) / bare - 1.0).abs() < 1e-13);
     }
 
     #[test]
