@@ -5,9 +5,13 @@ use meniscus_core::parameters::Gradient::{Difference2, Difference4, Spectral};
 use meniscus_core::parameters::Influence::{Continuum, Paper};
 use meniscus_core::parameters::{Assignment, Gradient, Influence};
 
-/// Fixed-point rounding of a disc's mass, in mesh cells: each of up to 9 weights is off by half of 2⁻²⁰ discs and
-/// lies at most 1.5 cells away, and as much again goes to the nearest node.
-pub const CENTRE_OF_MASS: f64 = 9.0 * 1.5 / 1_048_576.0;
+/// Fixed-point rounding of a disc's mass, in mesh cells, at order P: each of P² weights is off by up to 0.6 of
+/// 2⁻²⁰ discs (half for its rounding, the rest for binary32) and lies at most P/2 cells away, and as much again goes to
+/// the nearest node, half a cell away.
+pub fn centre_of_mass(order: usize) -> f64 {
+    let order = order as f64;
+    0.6 * order * order * (0.5 * order + 0.5) / 1_048_576.0
+}
 
 /// Repulsion of a pair against its closed form, relative to the sum of the moduli of its two terms. The unit of
 /// length, a coordinate and their product are rounded to binary32, 3 · 2⁻²⁴; the square of the distance is thus off
