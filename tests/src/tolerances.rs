@@ -33,6 +33,10 @@ pub const SELF_FORCE: f64 = 1e-5;
 /// transform of M points has 2 log2 M roundings of 2⁻²⁴ at each of four passes, which add as squares.
 pub const MESH_FIELD: f64 = 1e-6;
 
+/// The same of a split force with linear weights (order 2): the optimal influence function sums two aliases on either
+/// side, beyond which a window squared falls as slowly as 1/k⁴. Its own error is a thousand times that.
+pub const FEW_ALIASES: f64 = 1.5e-5;
+
 /// Mesh forces in a turned, mirrored or shifted (by whole mesh cells) system against the turned, mirrored or
 /// shifted forces, rms over rms: the same sums in another order in binary32; at ties of the nearest node a
 /// remainder of 2⁻²⁰ discs may change its node.

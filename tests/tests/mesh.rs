@@ -14,7 +14,7 @@ use meniscus_tests::long_tests;
 use meniscus_tests::reference::{rms, rms_difference};
 use meniscus_tests::states::{crowded, lattice, scattered, shuffled, with_ids};
 use meniscus_tests::tolerances::{
-    FORCE_QUANTUM, LINEARITY, MESH_FIELD, MESH_NET_FORCE, SELF_FORCE, SYMMETRY,
+    FEW_ALIASES, FORCE_QUANTUM, LINEARITY, MESH_FIELD, MESH_NET_FORCE, SELF_FORCE, SYMMETRY,
 };
 
 /// The attraction alone, in a box whose mesh spacing is near 1.
@@ -195,10 +195,13 @@ fn the_field_is_that_of_a_direct_fourier_sum() {
         let parameters = Parameters { grid: 16, side: 14.0, ..scheme };
         let exact = direct_field(&parameters, &nodes);
         let error = rms_difference(&wide(&field(&AnySize, &parameters, 8, &nodes)), &exact) / rms(&exact);
-        worst = worst.max(error);
-        assert!(error <= MESH_FIELD, "{error:e}: {parameters:?}");
+        let split_by_linear_weights =
+            parameters.method == Method::P3m && parameters.assignment == Assignment::CloudInCell;
+        let allowed = if split_by_linear_weights { FEW_ALIASES } else { MESH_FIELD };
+        worst = worst.max(error / allowed);
+        assert!(error <= allowed, "{error:e}: {parameters:?}");
     }
-    println!("mesh field against a direct sum: {worst:.2e}");
+    println!("mesh field against a direct sum: {worst:.2} of what is accepted");
 }
 
 #[test]
