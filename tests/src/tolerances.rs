@@ -113,6 +113,43 @@ pub const FAR_ERROR: Within = Within(1e-5, 5e-4);
 /// higher orders add at the coarsest mesh and the assignment at the finest.
 pub const SECOND_ORDER: Within = Within(3.5, 4.5);
 
+// Accuracy of the split force against Ewald sums: tests/split_accuracy.rs.
+
+/// Order, nodes along the side, αh and r_c (R0) of schemes for 2500 random discs, L = 500 R0, λ = 270 R0, and rms error over
+/// reference force: PHYSICS, section 3, and 30 % either way, for the sample and two digits.
+pub const SPLIT_ERROR: [((usize, usize, f64, f64), Within); 8] = [
+    ((3, 256, 0.49, 12.0), Within(1e-3, 1.8e-3)),
+    ((4, 256, 0.49, 12.0), Within(2.7e-4, 4.9e-4)),
+    ((5, 256, 0.49, 13.0), Within(0.85e-4, 1.6e-4)),
+    ((5, 256, 0.43, 15.0), Within(3.5e-5, 6.5e-5)),
+    ((5, 256, 0.33, 22.0), Within(0.8e-5, 1.5e-5)),
+    ((7, 256, 0.39, 20.0), Within(2e-6, 3.7e-6)),
+    ((3, 128, 0.49, 24.0), Within(1.1e-3, 2.1e-3)),
+    ((5, 128, 0.49, 26.0), Within(0.9e-4, 1.7e-4)),
+];
+
+/// rms error of random states over its estimate.
+pub const ESTIMATE_ERROR: Within = Within(0.5, 2.0);
+
+/// rms error over the accuracy that a scheme was chosen for.
+pub const CHOSEN_ERROR: f64 = 1.2;
+
+/// rms error of a dense cluster over rms force, over the accuracy a scheme was chosen for.
+pub const CLUSTER_ERROR: Within = Within(1e-3, 1.0);
+
+/// Force of a pair in schemes with an error of some 1e-6 against the closed form with its images, in V0 (1/d + 1/L).
+pub const SPLIT_PAIR: f64 = 2e-5;
+
+// Unequal capillary strengths: tests/strengths.rs.
+
+/// rms error over rms force of 60 discs of strengths of either sign at least 1 R0 apart, in a scheme with αh = 0.31, order 7,
+/// and αr_c = 4.25: exp(−18) is left out, and the mesh's error is some 1e-6.
+pub const UNEQUAL_ERROR: Within = Within(1e-7, 2e-5);
+
+/// Forces of discs of strength f each against f² times those of strength 1, rms over rms: shares are rounded to 2⁻²⁰
+/// once more.
+pub const STRENGTH_RATIO: f64 = 1e-5;
+
 // Cold collapse: tests/ring_collapse.rs.
 
 /// A0 of a ring against the paper's, which has two decimals: its rounding, 0.005, and as much for reading R_f.
