@@ -43,6 +43,11 @@ fn all_schemes() -> impl Iterator<Item = Parameters> {
     low_orders().chain(higher)
 }
 
+/// The paper's method and the split one, all orders.
+fn both_methods() -> impl Iterator<Item = Parameters> {
+    all_schemes().chain(Assignment::ALL.map(|assignment| Parameters { assignment, ..FAR_PART }))
+}
+
 /// Every influence function and every gradient with the two lowest orders.
 fn low_orders() -> impl Iterator<Item = Parameters> {
     let assignments = [Assignment::CloudInCell, Assignment::TriangularShapedCloud];
@@ -226,7 +231,7 @@ fn a_size_known_at_compile_time_changes_no_bit() {
 #[test]
 fn mesh_forces_sum_to_zero_within_rounding() {
     let mut worst: f64 = 0.0;
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         for discs in [scattered(1, 200), crowded(2, 200, 0.2), crowded(3, 2, 0.1)] {
             let forces = forces(&scheme, &discs);
             let total: f64 = forces.iter().map(|&force| modulus(force)).sum();
@@ -241,9 +246,11 @@ fn mesh_forces_sum_to_zero_within_rounding() {
 #[test]
 fn a_lone_disc_does_not_pull_itself() {
     let mut worst: f64 = 0.0;
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         for (grid, side, count) in [(16, 16.0, 30), (32, 30.0, 10), (64, 500.0, 2)] {
-            let parameters = Parameters { grid, side, ..scheme };
+            let spacing = side / grid as f64;
+            let (splitting, cutoff) = (0.5 / spacing, 6.0 * spacing);
+            let parameters = Parameters { grid, side, splitting, cutoff, ..scheme };
             let scale = parameters.capillary_strength / (side / grid as f64);
             for disc in scattered(7, count) {
                 let pull = modulus(forces(&parameters, &[disc])[0]) / scale;
@@ -261,7 +268,7 @@ fn two_discs_attract_each_other() {
     let discs = [Position::from_bits(1 << 30, 1 << 30), Position::from_bits(0x6E6E_0000, 0x5252_0000)];
     let (dx, dy) = (30.0 * f64::from(0x2E6E) / 65536.0, 30.0 * f64::from(0x1252) / 65536.0);
     let distance = libm::hypot(dx, dy);
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         let forces = forces(&scheme, &discs);
         for (force, sign) in forces.iter().zip([1.0, -1.0]) {
             // V0·K1(d/λ)/λ ≈ V0/d, less the pull of the images; a mesh is off by some per cent.
@@ -280,7 +287,7 @@ fn relative_error(parameters: &Parameters, moved: &[Position], expected: &[[f64;
 #[test]
 fn mesh_forces_turn_with_the_discs() {
     let mut worst: f64 = 0.0;
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         let discs = scattered(4, 150);
         let expected: Vec<_> = forces(&scheme, &discs).into_iter().map(|[x, y]| [-y, x]).collect();
         let turned: Vec<_> = discs
@@ -297,7 +304,7 @@ fn mesh_forces_turn_with_the_discs() {
 #[test]
 fn mesh_forces_are_mirrored_with_the_discs() {
     let mut worst: f64 = 0.0;
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         let discs = scattered(5, 150);
         let original = forces(&scheme, &discs);
         let mirrored: Vec<_> = discs
@@ -319,7 +326,7 @@ fn mesh_forces_are_mirrored_with_the_discs() {
 #[test]
 fn mesh_forces_do_not_see_a_shift_by_whole_cells() {
     let mut worst: f64 = 0.0;
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         let discs = scattered(6, 150);
         let expected = forces(&scheme, &discs);
         for (columns, rows) in [(1_u32, 0_u32), (0, 1), (7, 19), (16, 16), (31, 31)] {
@@ -371,14 +378,14 @@ fn forces_are_linear_in_v0() {
 #[test]
 fn mesh_forces_do_not_depend_on_storage_order() {
     let discs = with_ids(&crowded(10, 300, 0.4));
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         assert_eq!(quantised_forces(&scheme, &shuffled(11, &discs)), quantised_forces(&scheme, &discs));
     }
 }
 
 #[test]
 fn a_lattice_in_step_with_the_mesh_feels_no_force() {
-    for scheme in all_schemes() {
+    for scheme in both_methods() {
         let forces = forces(&scheme, &lattice(8));
         let scale = scheme.capillary_strength / (scheme.side / scheme.grid as f64);
         let largest = forces.into_iter().map(modulus).fold(0.0, f64::max);
