@@ -18,6 +18,9 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "proptest")]
+extern crate std;
+
 pub mod assignment;
 pub mod cells;
 pub mod digest;
@@ -36,6 +39,8 @@ pub mod noise;
 pub mod optimal;
 pub mod pair_force;
 pub mod parameters;
+#[cfg(feature = "proptest")]
+pub mod property;
 pub mod repulsion;
 pub mod stencil;
 pub mod torus;
