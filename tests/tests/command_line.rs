@@ -68,6 +68,7 @@ fn a_run_leaves_everything_a_person_can_look_at() {
     }
     let table = fs::read_to_string(run.join("observables.csv")).unwrap();
     assert!(table.starts_with("step,time,time_over_jeans,dt,max_force,"), "{table}");
+    assert!(table.lines().next().unwrap().ends_with(",capillary_energy,repulsive_energy"), "{table}");
     assert_eq!(table.lines().count(), 1 + 11, "rows at 0, 0.05, … 0.5 T: {table}");
     let snapshots = ["snapshot-000.png", "snapshot-001.png"].map(|name| fs::read(run.join(name)).unwrap());
     assert!(snapshots.iter().all(|bytes| bytes.starts_with(b"\x89PNG")));

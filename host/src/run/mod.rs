@@ -24,6 +24,7 @@ use crate::files::FileError;
 use crate::files::extended_xyz::Frame;
 use crate::golden::Golden;
 use crate::observables::clusters::Clusters;
+use crate::observables::energy::{Energies, PotentialEnergy};
 use crate::simulation::Simulation;
 use crate::snapshot::SnapshotError;
 use directory::Directory;
@@ -111,6 +112,8 @@ pub struct Run {
     golden: Golden,
     golden_request: GoldenRequest,
     observables: Schedule,
+    /// None if there are no rows.
+    energy: Option<PotentialEnergy>,
     trajectory: Schedule,
     snapshots: Schedule,
 }
@@ -138,6 +141,7 @@ impl Run {
             golden: Golden::new(configuration.to_toml(), "a run"),
             golden_request,
             observables: schedule(observables),
+            energy: (observables > 0.0).then(|| PotentialEnergy::new(&configuration.system)),
             trajectory: schedule(trajectory),
             snapshots: schedule(snapshots),
             simulation,
@@ -193,7 +197,8 @@ impl Run {
         let next_step = self.simulation.engine.next_step().ok();
         let length = next_step.map_or(0, |(length, _)| length);
         if observables {
-            self.directory.write_row(&Row { clock, time_over_jeans, next_step }, &clusters)?;
+            let energies = self.energy.as_ref().map(|energy| energy.of(&positions, None)).unwrap_or_default();
+            self.directory.write_row(&Row { clock, time_over_jeans, next_step, energies }, &clusters)?;
         }
         if trajectory {
             self.directory.write_frame(&Frame {
@@ -234,17 +239,18 @@ struct Row {
     time_over_jeans: Option<f64>,
     /// Length of the next step (unit 2⁻⁴⁰ R0²/D) and the largest force in this state (unit 2⁻²⁴ kBT/R0).
     next_step: Option<(u64, u64)>,
+    energies: Energies,
 }
 
 impl Row {
     /// Names of the columns, those of the clusters included.
     const HEADER: &str = "step,time,time_over_jeans,dt,max_force,clusters,mean_cluster_size,\
-                          mass_weighted_cluster_size,largest_cluster";
+                          mass_weighted_cluster_size,largest_cluster,capillary_energy,repulsive_energy";
 
     fn format(&self, clusters: &Clusters) -> String {
         let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         format!(
-            "{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{}",
             self.clock.step,
             time_from_units(self.clock.time),
             cell(self.time_over_jeans),
@@ -254,6 +260,8 @@ impl Row {
             clusters.number_average(),
             clusters.mass_average(),
             clusters.largest(),
+            self.energies.capillary,
+            self.energies.repulsive,
         )
     }
 }
