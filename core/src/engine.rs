@@ -163,6 +163,12 @@ impl<const M: usize, const N: usize> Engine<M, N> {
         Some(Position { x: *self.x.get(slot)?, y: *self.y.get(slot)? })
     }
 
+    /// The capillary strength of disc `id`, unit 2⁻²⁰.
+    #[must_use]
+    pub fn strength(&self, id: u32) -> Option<i32> {
+        self.strengths.get(self.slot(id)?).copied()
+    }
+
     /// How many borders disc `id` has crossed along x and y since the run was set up, + to the right and up.
     #[must_use]
     pub fn crossings(&self, id: u32) -> Option<(i32, i32)> {

@@ -14,7 +14,7 @@
 
 use crate::fields::Fields;
 use crate::grid::Grid;
-use crate::torus::LARGEST_SIDE;
+use crate::torus::{LARGEST_SIDE, UNITS};
 
 pub use crate::grid::RANGE as GRID_RANGE;
 
@@ -310,7 +310,8 @@ impl Parameters {
         if self.cutoff.is_nan() || self.cutoff < SMALLEST_CUTOFF {
             return Err(ParameterError::Cutoff);
         }
-        if self.cutoff >= 0.5 * self.side {
+        // In units of position, rounded up, it must stay below half a box too.
+        if libm::ceil(self.cutoff / self.side * UNITS) >= 0.5 * UNITS {
             return Err(ParameterError::CutoffTooLarge);
         }
         Ok(())

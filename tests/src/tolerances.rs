@@ -139,6 +139,9 @@ pub const CHOSEN_ERROR: f64 = 1.0;
 /// E(r²) = r·F_near/V0 from the table in binary32 against the integral.
 pub const NEAR_TABLE: f64 = 1e-6;
 
+/// Near part of a pair force over V0/d: the table, and ten roundings of 2⁻²⁴ on the way.
+pub const NEAR_FORCE: f64 = 2e-6;
+
 /// rms error of a dense cluster over rms force, over the accuracy a scheme was chosen for.
 pub const CLUSTER_ERROR: Within = Within(1e-3, 1.0);
 

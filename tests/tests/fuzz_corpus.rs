@@ -46,7 +46,17 @@ macro_rules! replay_each {
     };
 }
 
-replay_each!(assignment, configuration, golden, mesh_solve, pair_force, parameters, positions, step);
+replay_each!(
+    assignment,
+    configuration,
+    golden,
+    mesh_solve,
+    near_force,
+    pair_force,
+    parameters,
+    positions,
+    step
+);
 
 #[test]
 fn every_target_is_fuzzed_and_replayed() {

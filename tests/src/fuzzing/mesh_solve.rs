@@ -4,9 +4,10 @@ use super::bytes::Bytes;
 use meniscus_core::assignment::{DISC, LARGEST_NODE_MASS};
 use meniscus_core::grid::Grid;
 use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
-use meniscus_core::mesh::{Tables, solve};
+use meniscus_core::mesh::{Tables, solve, solve_strengths};
 use meniscus_core::parameters::{
-    Gradient, Influence, LARGEST_CAPILLARY_STRENGTH, Parameters, SMALLEST_CAPILLARY_LENGTH, SPACING_RANGE,
+    Assignment, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH, LARGEST_SPLITTING_OF_SPACING, Method,
+    Parameters, SMALLEST_CAPILLARY_LENGTH, SPACING_RANGE,
 };
 use meniscus_core::transform::{AnySize, Complex32, FixedSize, LineTransform};
 
@@ -16,19 +17,32 @@ const M: usize = 16;
 /// eight roundings of 2⁻²⁴ each, and a few more for the tables.
 const FIELD: f64 = 40.0 / 16_777_216.0;
 
-/// Node masses; then: the field is finite, the forces on all masses cancel, the memory at hand and the kind of
+/// Node masses; then: the field is finite, read as strengths too, the forces on all masses cancel, the memory at hand and the kind of
 /// transform do not change a bit, and half the masses have exactly half the field.
 pub fn mesh_solve(data: &[u8]) {
     let mut bytes = Bytes(data);
     let (finest, coarsest) = SPACING_RANGE;
+    let side = M as f64 * bytes.number(finest, coarsest);
     let parameters = Parameters {
         grid: M,
-        side: M as f64 * bytes.number(finest, coarsest),
+        side,
         capillary_strength: bytes.number(0.0, LARGEST_CAPILLARY_STRENGTH),
         capillary_length: bytes.number(SMALLEST_CAPILLARY_LENGTH, 1e6),
-        influence: bytes.choice([Influence::Paper, Influence::Continuum]),
+        influence: bytes.choice([Influence::Paper, Influence::Continuum, Influence::Optimal]),
         gradient: bytes.choice([Gradient::Spectral, Gradient::Difference2, Gradient::Difference4]),
-        ..Parameters::default()
+        ..Parameters::PAPER
+    };
+    let parameters = if parameters.influence == Influence::Optimal {
+        Parameters {
+            method: Method::P3m,
+            gradient: Gradient::Spectral,
+            assignment: bytes.choice(Assignment::ALL),
+            splitting: bytes.number(0.1, LARGEST_SPLITTING_OF_SPACING) * M as f64 / side,
+            cutoff: 1.0,
+            ..parameters
+        }
+    } else {
+        parameters
     };
     if parameters.validate().is_err() {
         return;
@@ -48,6 +62,7 @@ pub fn mesh_solve(data: &[u8]) {
     assert!(field.iter().all(|force| force.re.is_finite() && force.im.is_finite()), "{parameters:?}");
     assert_eq!(bits(&field), bits(&field_of(&AnySize, 8, &tables, &nodes)));
     check_net_force(&tables, &nodes, &field);
+    check_strengths(&tables, &nodes, &field);
     check_halves(&tables, &nodes);
 }
 
@@ -65,6 +80,26 @@ fn field_of<T: LineTransform>(
 
 fn bits(field: &[Complex32]) -> Vec<(u32, u32)> {
     field.iter().map(|force| (force.re.to_bits(), force.im.to_bits())).collect()
+}
+
+/// Masses below 2³¹ are strengths too; strengths of the other sign make the opposite field, as near as the exchange of
+/// −0 and 0 lets it.
+fn check_strengths(tables: &Tables<'_>, nodes: &[u32], field: &[Complex32]) {
+    let field_of = |nodes: &[u32]| {
+        let zero = Complex32::new(0.0, 0.0);
+        let (mut field, mut lines) = (vec![zero; M * M], vec![zero; 2 * M]);
+        solve_strengths(&AnySize, Grid::SMALLEST, tables, nodes, &mut field, &mut lines);
+        field
+    };
+    if nodes.iter().all(|&mass| mass < 1 << 31) {
+        assert_eq!(bits(&field_of(nodes)), bits(field));
+    }
+    let signed: Vec<u32> = nodes.iter().map(|&mass| (mass as i32 >> 1) as u32).collect();
+    let opposite: Vec<u32> = signed.iter().map(|strength| strength.wrapping_neg()).collect();
+    for (force, opposite) in field_of(&signed).iter().zip(field_of(&opposite)) {
+        assert!(force.re.is_finite() && force.im.is_finite());
+        assert!(force.re == -opposite.re && force.im == -opposite.im, "{force} and {opposite}");
+    }
 }
 
 /// Newton's third law. By Cauchy's inequality what is left is at most the norm of the masses times that of the

@@ -14,6 +14,7 @@ mod bytes;
 mod configuration;
 mod golden;
 mod mesh_solve;
+mod near_force;
 mod pair_force;
 mod parameters;
 mod positions;
@@ -23,6 +24,7 @@ pub use assignment::assignment;
 pub use configuration::configuration;
 pub use golden::golden;
 pub use mesh_solve::mesh_solve;
+pub use near_force::near_force;
 pub use pair_force::pair_force;
 pub use parameters::parameters;
 pub use positions::positions;
@@ -32,11 +34,12 @@ pub use step::step;
 pub type Target = fn(&[u8]);
 
 /// Every target with the name of its folder in the corpus.
-pub const TARGETS: [(&str, Target); 8] = [
+pub const TARGETS: [(&str, Target); 9] = [
     ("assignment", assignment),
     ("configuration", configuration),
     ("golden", golden),
     ("mesh_solve", mesh_solve),
+    ("near_force", near_force),
     ("pair_force", pair_force),
     ("parameters", parameters),
     ("positions", positions),

@@ -2,9 +2,13 @@
 
 use super::bytes::Bytes;
 use meniscus_core::ermak::StepLimits;
+use meniscus_core::fields::{FieldForce, Fields, LARGEST_FIELD_FORCE};
+use meniscus_core::optimal::OptimalInfluence;
+use meniscus_core::pair_force::PairForce;
 use meniscus_core::parameters::{
     Assignment, DISPLACEMENT_RANGE, GRID_RANGE, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH,
-    LARGEST_SEED, Noise, Parameters, SMALLEST_CAPILLARY_LENGTH, SPACING_RANGE, STEP_RANGE,
+    LARGEST_SEED, LARGEST_SPLITTING_OF_SPACING, Method, Noise, Parameters, SMALLEST_CAPILLARY_LENGTH,
+    SMALLEST_CUTOFF, SPACING_RANGE, SPLITTING_RANGE, STEP_RANGE,
 };
 use meniscus_core::repulsion::{CUTOFF, Repulsion};
 use meniscus_core::torus::{Fraction, LARGEST_SIDE, SMALLEST_SIDE, Torus};
@@ -20,15 +24,20 @@ pub fn parameters(data: &[u8]) {
     check_torus(parameters.side, &mut bytes);
     check_limits(&parameters, bytes.bits_64());
     let repulsion = Repulsion::new(parameters.side);
+    check_field(&parameters, &mut bytes);
+    check_optimal(&parameters, &mut bytes);
+    let pairs = PairForce::new(&parameters);
     if valid.is_ok() {
+        assert!(pairs.reach() < 1 << 31, "{parameters:?}");
         let reach = f64::from(repulsion.reach()) * (parameters.side / 4_294_967_296.0);
         assert!(reach >= CUTOFF * (1.0 - f64::EPSILON), "{reach} in {parameters:?}");
     }
 }
 
 fn numbers(bytes: &mut Bytes<'_>) -> Parameters {
+    let side = bytes.number(0.0, LARGEST_SIDE);
     Parameters {
-        side: bytes.number(0.0, LARGEST_SIDE),
+        side,
         capillary_strength: bytes.number(0.0, LARGEST_CAPILLARY_STRENGTH),
         capillary_length: bytes.number(SMALLEST_CAPILLARY_LENGTH, f64::MAX),
         repulsion: bytes.flag(),
@@ -36,15 +45,72 @@ fn numbers(bytes: &mut Bytes<'_>) -> Parameters {
             0 => bytes.bits_64() as usize,
             shift => 1 << (shift % 16),
         },
-        assignment: Assignment::default(),
-        influence: Influence::default(),
-        gradient: Gradient::default(),
+        assignment: bytes.choice(Assignment::ALL),
+        influence: bytes.choice([Influence::Paper, Influence::Continuum, Influence::Optimal]),
+        gradient: bytes.choice([Gradient::Spectral, Gradient::Difference2]),
         noise: Noise::default(),
         max_step: bytes.number(STEP_RANGE.0, STEP_RANGE.1),
         max_displacement: bytes.number(DISPLACEMENT_RANGE.0, DISPLACEMENT_RANGE.1),
         seed: bytes.bits_64(),
-        ..Parameters::DEFAULT
+        method: bytes.choice([Method::ParticleMesh, Method::P3m]),
+        splitting: bytes.number(SPLITTING_RANGE.0, SPLITTING_RANGE.1),
+        cutoff: bytes.number(SMALLEST_CUTOFF, 0.5 * side),
+        fields: Fields {
+            uniform_force: [0; 2].map(|_| bytes.number(-LARGEST_FIELD_FORCE, LARGEST_FIELD_FORCE)),
+            trap_stiffness: bytes.number(0.0, 2.0 * LARGEST_FIELD_FORCE / side),
+            trap_center: [0; 2].map(|_| bytes.number(0.0, side)),
+        },
     }
+}
+
+/// What belongs to the method, as its documentation says.
+fn method_in_range(parameters: &Parameters) -> bool {
+    let &Parameters { side, grid, splitting, cutoff, .. } = parameters;
+    match parameters.method {
+        Method::ParticleMesh => parameters.influence != Influence::Optimal,
+        Method::P3m => {
+            parameters.influence == Influence::Optimal
+                && parameters.gradient == Gradient::Spectral
+                && (SPLITTING_RANGE.0..=SPLITTING_RANGE.1).contains(&splitting)
+                && splitting * (side / grid as f64) <= LARGEST_SPLITTING_OF_SPACING
+                && cutoff >= SMALLEST_CUTOFF
+                && libm::ceil(cutoff / side * 4_294_967_296.0) < 2_147_483_648.0
+        }
+    }
+}
+
+/// As their documentation says.
+fn fields_in_range(parameters: &Parameters) -> bool {
+    let Fields { uniform_force, trap_stiffness, trap_center } = parameters.fields;
+    let inside = |center: f64| (0.0..=parameters.side).contains(&center);
+    let weak = |force: f64| force.abs() + trap_stiffness * 0.5 * parameters.side <= LARGEST_FIELD_FORCE;
+    trap_stiffness >= 0.0 && trap_center.into_iter().all(inside) && uniform_force.into_iter().all(weak)
+}
+
+/// A field is finite everywhere, and that of valid parameters at most the largest.
+fn check_field(parameters: &Parameters, bytes: &mut Bytes<'_>) {
+    let field = FieldForce::new(&parameters.fields, parameters.side);
+    if parameters.validate().is_err() {
+        return;
+    }
+    let (x, y) = field.at(Fraction::from_bits(bytes.bits_32()), Fraction::from_bits(bytes.bits_32()));
+    let most = LARGEST_FIELD_FORCE * 16_777_216.0 * (1.0 + 1e-6) + 2.0;
+    assert!((x.unsigned_abs().max(y.unsigned_abs()) as f64) <= most, "({x}, {y}) of {parameters:?}");
+}
+
+/// The optimal influence function is a number, and not negative where waves are long.
+fn check_optimal(parameters: &Parameters, bytes: &mut Bytes<'_>) {
+    if parameters.validate().is_err() || parameters.method == Method::ParticleMesh {
+        return;
+    }
+    let &Parameters { grid, side, assignment, splitting, capillary_length, .. } = parameters;
+    let optimal = OptimalInfluence { grid, side, order: assignment.order(), splitting, capillary_length };
+    let frequency = |bits: u32| bits as usize % (grid / 2 + 1);
+    let (l, m) = (frequency(bytes.bits_32()), frequency(bytes.bits_32()));
+    let value = optimal.at(l, m);
+    assert!(value.is_finite(), "{value} at ({l}, {m}) of {optimal:?}");
+    assert_eq!(value.to_bits(), optimal.at(m, l).to_bits(), "at ({l}, {m}) of {optimal:?}");
+    assert!(optimal.at(1, 0) >= 0.0, "{optimal:?}");
 }
 
 /// The ranges as their constants give them.
@@ -61,6 +127,8 @@ fn in_range(parameters: &Parameters) -> bool {
         && (STEP_RANGE.0..=STEP_RANGE.1).contains(&parameters.max_step)
         && (DISPLACEMENT_RANGE.0..=DISPLACEMENT_RANGE.1).contains(&parameters.max_displacement)
         && parameters.seed <= LARGEST_SEED
+        && method_in_range(parameters)
+        && fields_in_range(parameters)
 }
 
 fn check_torus(side: f64, bytes: &mut Bytes<'_>) {

@@ -1,12 +1,15 @@
 //! The engine: set-up and steps.
 
 use super::bytes::Bytes;
+use meniscus_core::assignment::DISC;
 use meniscus_core::digest::StateDigest;
-use meniscus_core::dynamics::{Clock, InitError, Step, StepError};
+use meniscus_core::dynamics::{Clock, Disc, InitError, Step, StepError};
 use meniscus_core::engine::Engine;
+use meniscus_core::fields::{Fields, LARGEST_FIELD_FORCE};
 use meniscus_core::parameters::{
-    Assignment, DISPLACEMENT_RANGE, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH, Noise, Parameters,
-    SMALLEST_CAPILLARY_LENGTH, STEP_RANGE,
+    Assignment, DISPLACEMENT_RANGE, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH,
+    LARGEST_SPLITTING_OF_SPACING, LARGEST_STRENGTH, Method, Noise, Parameters, SMALLEST_CAPILLARY_LENGTH,
+    SMALLEST_CUTOFF, STEP_RANGE,
 };
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::Position;
@@ -17,9 +20,9 @@ type SmallEngine = Engine<16, 32>;
 /// Largest side of a mesh of 16 nodes, R0.
 const LARGEST_SIDE: f64 = 256.0;
 
-/// Parameters, a clock and discs; then: set-up succeeds exactly when the parameters are valid and the ids are 0 … n − 1,
-/// and of every step: its length is within its bounds, a refusal leaves the state as it was, repulsion alone sums to
-/// zero, and neither the order of the discs, nor a restart, nor looking at forces changes anything.
+/// Parameters, a clock and discs; then: set-up succeeds exactly when the parameters are valid, the ids are 0 … n − 1 and
+/// no strength is too large, and of every step: its length is within its bounds, a refusal leaves the state as it was,
+/// pair forces alone sum to zero, and neither the order of the discs, nor a restart, nor looking at forces changes anything.
 pub fn step(data: &[u8]) {
     let mut bytes = Bytes(data);
     let parameters = parameters(&mut bytes);
@@ -60,32 +63,57 @@ pub fn step(data: &[u8]) {
 }
 
 fn parameters(bytes: &mut Bytes<'_>) -> Parameters {
-    Parameters {
-        side: bytes.number(2.0 * CUTOFF, LARGEST_SIDE),
+    let side = bytes.number(2.0 * CUTOFF, LARGEST_SIDE);
+    let paper = Parameters {
+        side,
         capillary_strength: bytes.number(0.0, LARGEST_CAPILLARY_STRENGTH),
         capillary_length: bytes.number(SMALLEST_CAPILLARY_LENGTH, f64::MAX),
         repulsion: bytes.flag(),
         grid: bytes.choice([16, 16, 16, 16, 16, 16, 16, 64]),
-        assignment: bytes.choice([Assignment::CloudInCell, Assignment::TriangularShapedCloud]),
+        assignment: bytes.choice(Assignment::ALL),
         influence: bytes.choice([Influence::Paper, Influence::Continuum]),
         gradient: bytes.choice([Gradient::Spectral, Gradient::Difference2, Gradient::Difference4]),
         noise: bytes.choice([Noise::Uniform, Noise::Gaussian, Noise::None]),
         max_step: bytes.number(STEP_RANGE.0, STEP_RANGE.1),
         max_displacement: bytes.number(DISPLACEMENT_RANGE.0, DISPLACEMENT_RANGE.1),
         seed: bytes.bits_64(),
-        ..Parameters::DEFAULT
+        ..Parameters::PAPER
+    };
+    let fields = if bytes.byte() > 200 { fields(bytes, side) } else { Fields::NONE };
+    if bytes.flag() {
+        return Parameters { fields, ..paper };
+    }
+    Parameters {
+        fields,
+        method: Method::P3m,
+        influence: if bytes.byte() == 7 { paper.influence } else { Influence::Optimal },
+        gradient: if bytes.byte() == 7 { paper.gradient } else { Gradient::Spectral },
+        splitting: bytes.number(0.0, LARGEST_SPLITTING_OF_SPACING * 16.0 / side),
+        cutoff: bytes.number(SMALLEST_CUTOFF, 0.5 * side),
+        ..paper
     }
 }
 
-/// Up to 33 discs. Ids are those of the order, mixed, or whatever the bytes say.
-fn discs(bytes: &mut Bytes<'_>) -> Vec<(u32, Position)> {
-    let (kind, near) = (bytes.byte(), bytes.byte() % 32);
+fn fields(bytes: &mut Bytes<'_>, side: f64) -> Fields {
+    let mut force = || bytes.number(-LARGEST_FIELD_FORCE, LARGEST_FIELD_FORCE);
+    let uniform_force = [force(), force()];
+    let trap_stiffness = bytes.number(0.0, 2.0 * LARGEST_FIELD_FORCE / side);
+    Fields { uniform_force, trap_stiffness, trap_center: [bytes.number(0.0, side), bytes.number(0.0, side)] }
+}
+
+/// Up to 33 discs. Ids are those of the order, mixed, or whatever the bytes say; strengths all 1, or whatever the bytes
+/// say.
+fn discs(bytes: &mut Bytes<'_>) -> Vec<Disc> {
+    let (kind, near, strength) = (bytes.byte(), bytes.byte() % 32, bytes.byte());
     let mut discs = Vec::new();
     while !bytes.is_empty() && discs.len() <= 32 {
         let id = if kind == 0 { u32::from(bytes.byte()) } else { discs.len() as u32 };
         // Shifted, discs are close to each other, across the border.
         let coordinate = |bits: u32| (bits as i32 >> near) as u32;
-        discs.push((id, Position::from_bits(coordinate(bytes.bits_32()), coordinate(bytes.bits_32()))));
+        let position = Position::from_bits(coordinate(bytes.bits_32()), coordinate(bytes.bits_32()));
+        let any = |bytes: &mut Bytes<'_>| bytes.bits_32() as i32 >> (strength % 32);
+        let strength = if strength < 128 { DISC as i32 } else { any(bytes) };
+        discs.push(Disc { id, position, strength });
     }
     if kind != 0 && !discs.is_empty() {
         let turn = usize::from(kind) % discs.len();
@@ -94,12 +122,18 @@ fn discs(bytes: &mut Bytes<'_>) -> Vec<(u32, Position)> {
     discs
 }
 
-fn check_init(parameters: &Parameters, discs: &[(u32, Position)], result: Result<(), InitError>) {
-    let mut ids: Vec<u32> = discs.iter().map(|&(id, _)| id).collect();
+fn check_init(parameters: &Parameters, discs: &[Disc], result: Result<(), InitError>) {
+    let mut ids: Vec<u32> = discs.iter().map(|disc| disc.id).collect();
     ids.sort_unstable();
     let dense = ids.iter().copied().eq(0..ids.len() as u32);
     let sound = parameters.validate().is_ok() && parameters.grid == 16;
-    assert_eq!(result.is_ok(), sound && dense && (1..=32).contains(&discs.len()), "{result:?}");
+    let moderate = discs.iter().all(|disc| {
+        let strength = f64::from(disc.strength) / f64::from(DISC);
+        let coupling = parameters.capillary_strength * strength * strength;
+        strength.abs() <= LARGEST_STRENGTH && coupling <= LARGEST_CAPILLARY_STRENGTH
+    });
+    let expected = sound && dense && moderate && (1..=32).contains(&discs.len());
+    assert_eq!(result.is_ok(), expected, "{result:?}");
 }
 
 fn digest(engine: &SmallEngine) -> StateDigest {
@@ -108,7 +142,8 @@ fn digest(engine: &SmallEngine) -> StateDigest {
 
 /// Another engine that starts where this one is.
 fn restart(parameters: &Parameters, engine: &SmallEngine) -> Box<SmallEngine> {
-    let discs = (0..engine.count() as u32).filter_map(|id| Some((id, engine.position(id)?)));
+    let disc = |id| Some(Disc { id, position: engine.position(id)?, strength: engine.strength(id)? });
+    let discs = (0..engine.count() as u32).filter_map(disc);
     let mut restarted = Box::new(SmallEngine::new());
     assert_eq!(restarted.init_at(parameters, engine.clock(), discs), Ok(()));
     assert_eq!(digest(engine), digest(&restarted));
@@ -127,7 +162,7 @@ fn check_step(parameters: &Parameters, before: &StateDigest, step: &Step) {
 
 /// The forces of the last step or refusal.
 fn check_net_force(parameters: &Parameters, engine: &SmallEngine) {
-    if parameters.capillary_strength > 0.0 {
+    if parameters.capillary_strength > 0.0 || parameters.fields != Fields::NONE {
         return;
     }
     let forces = (0..engine.count() as u32).filter_map(|id| engine.force(id));
