@@ -5,6 +5,7 @@
 //! [`run`], which drives the [`engine`] and writes [`files`], [`observables`], [`snapshot`]s and [`golden`] records;
 //! [`verification`] repeats a golden run.
 
+pub mod accuracy;
 pub mod commands;
 pub mod configuration;
 pub mod engine;
