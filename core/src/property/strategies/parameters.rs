@@ -7,7 +7,7 @@ use crate::parameters::{
     SMALLEST_CUTOFF, SPACING_RANGE, SPLITTING_RANGE, STEP_RANGE,
 };
 use crate::repulsion::CUTOFF;
-use crate::torus::LARGEST_SIDE;
+use crate::torus::{LARGEST_SIDE, UNITS};
 use proptest::prelude::*;
 use proptest::sample::select;
 
@@ -129,9 +129,11 @@ impl Splitting {
         let spacing = parameters.side / parameters.grid as f64;
         // The largest α·h without what rounding may add.
         let finest = LARGEST_SPLITTING_OF_SPACING.next_down() / spacing;
+        // Two units of position below half a box: what rounding may add leaves one.
+        let farthest = (0.5 - 2.0 / UNITS) * parameters.side;
         Parameters {
             splitting: logarithmic(SPLITTING_RANGE.0, SPLITTING_RANGE.1.min(finest), self.splitting),
-            cutoff: logarithmic(SMALLEST_CUTOFF, (0.5 * parameters.side).next_down(), self.cutoff),
+            cutoff: logarithmic(SMALLEST_CUTOFF, farthest, self.cutoff),
             ..parameters
         }
     }
