@@ -129,7 +129,7 @@ fn strengths_of_either_sign_weight_every_pair() {
 fn strengths_of_one_are_those_left_out() {
     let discs = scattered(5, 50);
     let energy = PotentialEnergy::new(&system(SIDE, 25.0));
-    assert_eq!(energy.of(&discs, Some(&vec![DISC as i32; 50])), energy.of(&discs, None));
+    assert_eq!(energy.of(&discs, Some(&[DISC as i32; 50])), energy.of(&discs, None));
     assert_eq!(energy.of(&discs, Some(&[])), energy.of(&discs, None));
 }
 
