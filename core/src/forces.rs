@@ -162,7 +162,7 @@ impl Forces {
     fn add_pairs(&self, discs: Memory<'_>) {
         let Memory { ids, x, y, force_x, force_y, strengths, near, next, nodes, .. } = discs;
         let table = near.get(..self.near).unwrap_or(&[]);
-        let id = |disc: usize| ids.get(disc);
+        let id = |disc: usize| ids.get(disc).copied().unwrap_or(0);
         let strength = |disc: usize| strengths.get(disc).copied().unwrap_or(0);
         let product = |first: usize, second: usize| match self.coupling {
             Coupling::None => 0.0,

@@ -34,19 +34,28 @@ pub const TIME_UNITS: u64 = 1 << 40;
 /// 2²³: from here on every binary32 number is an integer.
 const ALL_INTEGERS: f32 = 8_388_608.0;
 
+/// 2²².
+const SMALL: f32 = 4_194_304.0;
+
+/// 1.5·2²³: added to a number of modulus up to 2²², it leaves the nearest integer in the last bits of the sum.
+const INTEGERS: f32 = 12_582_912.0;
+
 /// The integer nearest to `value`, ties to even; saturates at the ends of `i64`.
 ///
 /// Exact for every finite `value`, and made of one comparison, one addition and one subtraction, so that
-/// lanes of any width can do the same: below 2²³ adding and subtracting 2²³ with the sign of `value` rounds
-/// to an integer, from there on `value` is one.
+/// lanes of any width can do the same: up to 2²², adding 1.5·2²³ rounds to an integer, which is the difference of the
+/// bits; from 2²³ on `value` is one, and in between adding and subtracting 2²³ rounds.
 #[must_use]
 pub fn round_half_even(value: f32) -> i64 {
+    if value.abs() <= SMALL {
+        let bits = (value + INTEGERS).to_bits();
+        return i64::from(bits as i32 - INTEGERS.to_bits() as i32);
+    }
     if value.abs() < ALL_INTEGERS {
         let shift = ALL_INTEGERS.copysign(value);
-        ((value + shift) - shift) as i64
-    } else {
-        value as i64
+        return ((value + shift) - shift) as i64;
     }
+    value as i64
 }
 
 /// A force component in kBT/R0, from units of 2⁻²⁴ kBT/R0.
