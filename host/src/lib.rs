@@ -16,5 +16,6 @@ pub mod run;
 pub mod simulation;
 pub mod snapshot;
 pub mod start;
+pub mod strengths;
 pub mod theory;
 pub mod verification;

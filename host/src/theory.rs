@@ -18,7 +18,8 @@ use core::f64::consts::PI;
 
 /// Jeans' time T = 1/(2π V0 ρ_h), R0²/D (Eq. 7).
 ///
-/// `capillary_strength` is V0 in kBT, `density` is ρ_h in R0⁻². Infinite without attraction.
+/// `capillary_strength` is V0 in kBT, `density` is ρ_h in R0⁻². Infinite without attraction. For discs of unequal
+/// strengths f, V0·⟨f²⟩ takes the place of V0 here and below.
 #[must_use]
 pub fn jeans_time(capillary_strength: f64, density: f64) -> f64 {
     1.0 / (2.0 * PI * capillary_strength * density)

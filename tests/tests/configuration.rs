@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 
 use meniscus::configuration::keys::{KEYS, Kind, TABLES};
 use meniscus::configuration::{
-    Assignment, Attraction, Configuration, Force, Gradient, Influence, Lattice, Mesh, Method, Motion, Noise,
-    Output, Physical, Start, System, Time, VERSION,
+    ACCURACY_RANGE, Assignment, Attraction, Configuration, Fields, Force, Gradient, Influence, Lattice, Mesh,
+    Motion, Noise, Output, Physical, Start, System, Time, VERSION,
 };
+use meniscus::strengths::{ONE, Strengths};
+use meniscus_tests::long_tests;
 use proptest::prelude::*;
 
 /// The TOML files of a directory beside this test's package, in the order of their names.
@@ -68,6 +70,40 @@ fn bad_files_are_refused_with_exactly_their_message() {
 }
 
 #[test]
+fn presets_read_back_equal_with_all_that_was_chosen() {
+    let presets = meniscus::configuration::PRESETS.iter();
+    // What is chosen takes seconds without optimisation.
+    for preset in presets.filter(|preset| long_tests() || preset.name == "fig-12") {
+        let configuration = Configuration::from_preset(preset.name, &[]).unwrap();
+        assert!(configuration.estimated_error().unwrap() <= 1e-3, "{}", preset.name);
+        assert_round_trip(&configuration);
+        let complete = preset.complete().unwrap();
+        assert_eq!(Configuration::from_text("complete", &complete, &[]), Ok(configuration));
+    }
+}
+
+#[test]
+fn strengths_take_the_place_of_one_in_jeans_time() {
+    let with = |strengths: &str| {
+        let overrides = [format!("system.strengths={strengths}"), "force.method=pm".to_owned()];
+        Configuration::from_preset("table-1", &overrides).unwrap()
+    };
+    let one = with("[1]");
+    for (strengths, mean_square) in [("[1, -1]", 1.0), ("[2]", 4.0), ("[0, 0, 1, 0]", 0.25), ("[3, 1]", 5.0)]
+    {
+        let other = with(strengths);
+        let [expected, found] = [&one, &other].map(|configuration| configuration.instability().unwrap());
+        assert!((expected.jeans_time / found.jeans_time / mean_square - 1.0).abs() < 1e-15, "{strengths}");
+        let ratio = found.jeans_wavenumber / expected.jeans_wavenumber;
+        assert!((ratio * ratio / mean_square - 1.0).abs() < 1e-14, "{strengths}");
+    }
+    // 2500 discs are one more than 833 times three.
+    assert_eq!(with("[1, 0, 0]").strengths.mean_square(2500), 834.0 / 2500.0);
+    let free = with("[0]");
+    assert_eq!((free.jeans_time(), free.end_time(), free.attraction()), (None, 5.0, 0.0));
+}
+
+#[test]
 fn a_missing_file_is_named() {
     let error = Configuration::read(Path::new("no/such/file.toml"), &[]).unwrap_err();
     assert!(error.to_string().starts_with("no/such/file.toml: cannot be read: "), "{error}");
@@ -86,7 +122,8 @@ fn overrides_mend_what_a_file_lacks() {
     let overrides = overrides.map(str::to_owned);
     let configuration = Configuration::from_text("short.toml", "version = 1", &overrides).unwrap();
     assert_eq!(configuration.system.particles, 10);
-    assert_eq!(configuration.mesh.grid, 64);
+    assert_eq!(configuration.force.method_word(), "p3m");
+    assert_eq!(configuration.estimated_error(), Some(0.0));
 }
 
 /// Numbers of all magnitudes in (0, `most`].
@@ -108,7 +145,7 @@ fn capillary_length() -> impl Strategy<Value = f64> {
 
 /// A mesh whose spacing is allowed, and a box with it.
 fn mesh_and_side() -> impl Strategy<Value = (Mesh, f64)> {
-    let assignment = prop_oneof![Just(Assignment::CloudInCell), Just(Assignment::TriangularShapedCloud)];
+    let assignment = prop::sample::select(Assignment::ALL.to_vec());
     let influence = prop_oneof![Just(Influence::Paper), Just(Influence::Continuum)];
     let gradient =
         prop_oneof![Just(Gradient::Spectral), Just(Gradient::Difference2), Just(Gradient::Difference4)];
@@ -161,19 +198,40 @@ fn capillary_strength() -> impl Strategy<Value = f64> {
     prop_oneof![Just(0.0), 0.001_f64..1000.0]
 }
 
-/// A valid configuration in reduced units.
+/// Fields in a box of `side`.
+fn fields_in(side: f64) -> impl Strategy<Value = Fields> {
+    let (force, part) = (|| prop_oneof![Just(0.0), -1e6_f64..1e6], || prop_oneof![Just(0.5), 0.0_f64..=1.0]);
+    let stiffness = prop_oneof![Just(0.0), 0.0_f64..1e3];
+    (force(), force(), stiffness, part(), part()).prop_map(move |(x, y, trap_stiffness, part_x, part_y)| {
+        Fields { uniform_force: [x, y], trap_stiffness, trap_center: [part_x * side, part_y * side] }
+    })
+}
+
+/// Strengths that V0 = `capillary_strength` (kBT) allows.
+fn strengths_with(capillary_strength: f64) -> impl Strategy<Value = Strengths> {
+    let largest = (0.999 * (1000.0 / capillary_strength.max(1e-3)).sqrt()).min(1000.0);
+    let largest = (largest * f64::from(ONE)) as i32;
+    let strength = prop_oneof![-largest..=largest, Just(0), Just(-ONE.min(largest))];
+    prop_oneof![
+        Just(Strengths::default()),
+        prop::collection::vec(strength, 1..20).prop_map(Strengths::Pattern),
+    ]
+}
+
+/// A valid configuration in reduced units, its force summed on the mesh alone.
 fn configuration() -> impl Strategy<Value = Configuration> {
     mesh_and_side()
         .prop_flat_map(|(mesh, side)| (Just(mesh), Just(side), start_in(side)))
         .prop_flat_map(|(mesh, side, (start, particles))| {
             (
                 (Just(mesh), Just(side), Just(start), Just(particles)),
-                (capillary_strength(), capillary_length(), any::<bool>()),
-                (motion(), times(), output(), 0_u64..1 << 63),
+                capillary_strength().prop_flat_map(|strength| (Just(strength), strengths_with(strength))),
+                (capillary_length(), any::<bool>()),
+                (motion(), times(), output(), 0_u64..1 << 63, fields_in(side)),
             )
         })
-        .prop_map(|((mesh, side, start, particles), (strength, length, repulsion), rest)| {
-            let (motion, until, output, seed) = rest;
+        .prop_map(|((mesh, side, start, particles), (strength, strengths), (length, repulsion), rest)| {
+            let (motion, until, output, seed, fields) = rest;
             Configuration {
                 version: VERSION,
                 seed,
@@ -185,8 +243,10 @@ fn configuration() -> impl Strategy<Value = Configuration> {
                     capillary_length: length,
                     repulsion,
                 },
-                force: Force { method: Method::ParticleMesh },
+                strengths,
+                force: Force::ParticleMesh,
                 mesh,
+                fields,
                 motion,
                 start,
                 time: Time { until },
@@ -217,7 +277,8 @@ fn physical_configuration() -> impl Strategy<Value = Configuration> {
                 mobility,
                 repulsion,
             };
-            Configuration { physical: Some(physical), system: physical.reduced(), ..configuration }
+            let strengths = if by_force { Strengths::default() } else { configuration.strengths.clone() };
+            Configuration { physical: Some(physical), system: physical.reduced(), strengths, ..configuration }
         })
         .prop_filter("the end can be held", |configuration| configuration.end_time() < 1e7)
 }
@@ -305,5 +366,30 @@ proptest! {
     #[test]
     fn arbitrary_preset_names_never_panic(name in any::<String>()) {
         assert_one_line(Configuration::from_preset(&name, &[]));
+    }
+}
+
+proptest! {
+    // What is chosen takes a second without optimisation.
+    #![proptest_config(ProptestConfig::with_cases(if long_tests() { 100 } else { 3 }))]
+
+    #[test]
+    fn what_is_chosen_for_an_accuracy_reads_back_equal(
+        configuration in configuration(), digits in -5.0_f64..-2.0,
+    ) {
+        let accuracy = libm::pow(10.0, digits).clamp(ACCURACY_RANGE.0, ACCURACY_RANGE.1);
+        let text = configuration.to_toml();
+        let overrides = ["force.method=p3m".to_owned(), format!("force.accuracy={accuracy:?}")];
+        let chosen = Configuration::from_text("chosen.toml", &text, &overrides);
+        if let Ok(chosen) = &chosen {
+            assert_round_trip(chosen);
+            prop_assert!(chosen.estimated_error().unwrap() <= accuracy);
+            prop_assert_eq!(chosen.parameters().validate(), Ok(()));
+            let pm = ["force.method=pm".to_owned()];
+            let back = Configuration::from_text("back.toml", &chosen.to_toml(), &pm).unwrap();
+            let paper = Mesh { influence: Influence::Paper, ..chosen.mesh };
+            prop_assert_eq!((back.force, back.mesh), (Force::ParticleMesh, paper));
+        }
+        assert_one_line(chosen);
     }
 }

@@ -19,10 +19,11 @@ const LONG: f64 = 0.2;
 /// What makes a run of the waves k < 0.2 K cheap: they do not see a mesh of spacing 4.8 R0 (kh < 0.23, which weakens
 /// the force by 1 % at the most and 0.4 % on average), nor whether discs in contact repel, nor a longer step when
 /// none do.
-const COARSE: [&str; 3] = ["mesh.grid=128", "motion.max_step=0.05", "system.repulsion=false"];
+const COARSE: [&str; 4] =
+    ["force.method=pm", "mesh.grid=128", "motion.max_step=0.05", "system.repulsion=false"];
 
 /// All of Fig. 2 but the ceiling of the step, which is for pairs in contact.
-const FINE: [&str; 1] = ["motion.max_step=0.005"];
+const FINE: [&str; 3] = ["force.method=pm", "mesh.grid=512", "motion.max_step=0.005"];
 
 /// A mode of wavenumber k/K.
 type Mode = (f64, Growth);

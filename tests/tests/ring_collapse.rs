@@ -22,10 +22,10 @@ const FIGURE_12: [(usize, f64, f64); 3] = [(7, 1.15, 18.0), (5, 1.16, 13.0), (3,
 
 /// A mesh and a step eight times coarser than the preset's mesh and fifty times than its step. The forces of a cold
 /// patch are smooth until its discs touch; that the fit hardly depends on either is tested below.
-const COARSE: [&str; 2] = ["mesh.grid=128", "motion.max_step=0.05"];
+const COARSE: [&str; 3] = ["force.method=pm", "mesh.grid=128", "motion.max_step=0.05"];
 
 /// The preset's mesh. Its step of 0.001 R0²/D is for thermal kicks, and there are none.
-const FINE: [&str; 2] = ["mesh.grid=1024", "motion.max_step=0.01"];
+const FINE: [&str; 3] = ["force.method=pm", "mesh.grid=1024", "motion.max_step=0.01"];
 
 /// The radii of all rings at one time.
 struct Sample {

@@ -12,7 +12,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
     match &arguments.name {
-        Some(name) => write!(output, "{}", preset(name)?.text)?,
+        Some(name) => write!(output, "{}", preset(name)?.complete()?)?,
         None => {
             for preset in PRESETS {
                 writeln!(output, "{:<12}{}", preset.name, preset.summary)?;

@@ -2,39 +2,46 @@
 
 use std::path::PathBuf;
 
-use super::checks::check;
+use super::checks::{check, check_parameters};
 use super::entries::Entries;
 use super::error::ConfigurationError;
 use super::keys::key;
-use super::names::{
-    ASSIGNMENTS, GRADIENTS, INFLUENCES, LATTICES, METHODS, NOISES, STARTS, StartWord, meaning,
-};
+use super::names::{LATTICES, NOISES, STARTS, StartWord, meaning};
+use super::scheme::{choose, given_scheme, settle_method};
 use super::{
-    Attraction, Configuration, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Mesh, Motion, Output,
-    Physical, Start, System, Time, VERSION, default_grid,
+    Attraction, Configuration, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Fields, Motion, Output,
+    Physical, Start, System, Time, VERSION,
 };
+use crate::strengths::{Strengths, from_number};
 
 /// A configuration from checked values.
 pub(super) fn assemble(mut entries: Entries) -> Result<Configuration, ConfigurationError> {
     refuse_both_units(&entries)?;
     settle_attraction(&mut entries)?;
+    let method = settle_method(&mut entries)?;
     let start_word = settle_start(&mut entries)?;
     refuse_missing(&entries, start_word)?;
     let physical = entries.table("physical").is_some().then(|| physical(&entries));
     let system = physical.map_or_else(|| system(&entries), |physical| physical.reduced());
-    let configuration = Configuration {
+    let (force, mesh) = given_scheme(&entries, method, system.side);
+    let mut configuration = Configuration {
         version: VERSION,
         seed: entries.integer("seed").unwrap_or(1),
         physical,
         system,
-        force: Force { method: choice(&entries, "force.method", &METHODS).unwrap_or_default() },
-        mesh: mesh(&entries, system.side),
+        strengths: strengths(&entries),
+        force,
+        mesh,
+        fields: fields(&entries, system.side),
         motion: motion(&entries),
         start: start(&entries, start_word.word),
-        time: time(&entries, system.capillary_strength),
+        time: Time { until: 0.0 },
         output: output(&entries),
     };
+    configuration.time = time(&entries, configuration.attraction() > 0.0);
     check(&configuration, &entries)?;
+    (configuration.force, configuration.mesh) = choose(&configuration, &entries)?;
+    check_parameters(&configuration, &entries)?;
     Ok(configuration)
 }
 
@@ -169,12 +176,17 @@ fn physical(entries: &Entries) -> Physical {
     }
 }
 
-fn mesh(entries: &Entries, side: f64) -> Mesh {
-    Mesh {
-        grid: if entries.has("mesh.grid") { count(entries, "mesh.grid") } else { default_grid(side) },
-        assignment: choice(entries, "mesh.assignment", &ASSIGNMENTS).unwrap_or_default(),
-        influence: choice(entries, "mesh.influence", &INFLUENCES).unwrap_or_default(),
-        gradient: choice(entries, "mesh.gradient", &GRADIENTS).unwrap_or_default(),
+fn strengths(entries: &Entries) -> Strengths {
+    let given = entries.numbers("system.strengths").or_else(|| entries.numbers("physical.strengths"));
+    let pattern = given.map(|numbers| numbers.iter().copied().filter_map(from_number).collect());
+    pattern.map_or_else(Strengths::default, Strengths::Pattern)
+}
+
+fn fields(entries: &Entries, side: f64) -> Fields {
+    Fields {
+        uniform_force: entries.pair("field.uniform_force").unwrap_or_default(),
+        trap_stiffness: entries.real("field.trap_stiffness").unwrap_or_default(),
+        trap_center: entries.pair("field.trap_center").unwrap_or([side / 2.0; 2]),
     }
 }
 
@@ -208,8 +220,8 @@ fn start(entries: &Entries, word: &str) -> Start {
     }
 }
 
-fn time(entries: &Entries, capillary_strength: f64) -> Time {
-    let default = if capillary_strength > 0.0 { DEFAULT_JEANS_TIMES } else { DEFAULT_DIFFUSION_TIMES };
+fn time(entries: &Entries, attracted: bool) -> Time {
+    let default = if attracted { DEFAULT_JEANS_TIMES } else { DEFAULT_DIFFUSION_TIMES };
     Time { until: entries.real("time.until").unwrap_or(default) }
 }
 

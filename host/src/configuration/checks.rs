@@ -2,12 +2,16 @@
 
 use core::f64::consts::PI;
 
-use meniscus_core::parameters::{ParameterError, SPACING_RANGE};
+use meniscus_core::fields::LARGEST_FIELD_FORCE;
+use meniscus_core::parameters::{
+    LARGEST_CAPILLARY_STRENGTH, LARGEST_SPLITTING_OF_SPACING, ParameterError, SPACING_RANGE,
+};
 
 use super::entries::Entries;
 use super::error::ConfigurationError;
 use super::keys::{key, plain};
-use super::{Attraction, Configuration, Start};
+use super::{Attraction, Configuration, Fields, Start};
+use crate::strengths::to_number;
 
 /// Largest fraction of an area that discs placed at random without overlap may cover: random
 /// sequential addition jams at 0.547, and slows down long before.
@@ -19,6 +23,7 @@ pub(super) const LATEST_TIME: f64 = 16_777_216.0;
 /// Refuses a configuration whose keys do not go together; `entries` knows their places.
 pub(super) fn check(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
     check_parameters(configuration, entries)?;
+    check_strengths(configuration, entries)?;
     check_time_unit(configuration, entries)?;
     check_start(configuration, entries)?;
     check_end(configuration, entries)
@@ -45,8 +50,12 @@ fn rounded(value: f64) -> String {
 }
 
 /// Asks the core.
-fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
-    let Err(error) = configuration.parameters().validate() else { return Ok(()) };
+pub(super) fn check_parameters(
+    configuration: &Configuration,
+    entries: &Entries,
+) -> Result<(), ConfigurationError> {
+    let parameters = configuration.parameters();
+    let Err(error) = parameters.validate() else { return Ok(()) };
     let system = &configuration.system;
     let of_system = |leaf: &str, value: f64, unit: &str| {
         let reduced = format!("system.{leaf}");
@@ -86,19 +95,74 @@ fn check_parameters(configuration: &Configuration, entries: &Entries) -> Result<
         ParameterError::CapillaryLength => of_system("capillary_length", system.capillary_length, "R0"),
         ParameterError::Grid => of_key("mesh.grid", configuration.mesh.grid.to_string()),
         ParameterError::GridTooCoarse | ParameterError::GridTooFine => of_grid(),
-        ParameterError::Splitting
-        | ParameterError::SplittingTooLarge
-        | ParameterError::Cutoff
-        | ParameterError::CutoffTooLarge
-        | ParameterError::Influence
-        | ParameterError::Gradient
-        | ParameterError::Fields => of_key("force.method", format!("{error:?}")),
+        ParameterError::Splitting => of_key("force.splitting", plain(parameters.splitting)),
+        ParameterError::SplittingTooLarge => {
+            let spacing = system.side / configuration.mesh.grid as f64;
+            let found =
+                format!("{} with a mesh spacing of {} R0", plain(parameters.splitting), rounded(spacing));
+            let most = rounded(LARGEST_SPLITTING_OF_SPACING / spacing);
+            refusal(
+                entries,
+                "force.splitting",
+                found,
+                format!("at most {most}, {} over the spacing", plain(LARGEST_SPLITTING_OF_SPACING)),
+            )
+        }
+        ParameterError::Cutoff => of_key("force.cutoff", plain(parameters.cutoff)),
+        ParameterError::CutoffTooLarge => refusal(
+            entries,
+            "force.cutoff",
+            plain(parameters.cutoff),
+            format!("a cut-off below half the box, {} R0", rounded(system.side / 2.0)),
+        ),
+        ParameterError::Influence => of_key("mesh.influence", format!("{:?}", parameters.influence)),
+        ParameterError::Gradient => of_key("mesh.gradient", format!("{:?}", parameters.gradient)),
+        ParameterError::Fields => of_fields(&configuration.fields, system.side, entries),
         ParameterError::MaxStep => of_key("motion.max_step", plain(configuration.motion.max_step)),
         ParameterError::MaxDisplacement => {
             of_key("motion.max_displacement", plain(configuration.motion.max_displacement))
         }
         ParameterError::Seed => of_key("seed", configuration.seed.to_string()),
     })
+}
+
+/// External fields that go out of their range together, or with the box.
+fn of_fields(fields: &Fields, side: f64, entries: &Entries) -> ConfigurationError {
+    let Fields { uniform_force: [x, y], trap_stiffness, trap_center } = *fields;
+    if let Some(center) = trap_center.into_iter().find(|center| !(*center >= 0.0 && *center <= side)) {
+        let expected = format!("a centre in the box, 0 to {} R0", rounded(side));
+        return refusal(entries, "field.trap_center", plain(center), expected);
+    }
+    let largest = x.abs().max(y.abs()) + trap_stiffness * 0.5 * side;
+    refusal(
+        entries,
+        "field.trap_stiffness",
+        format!(
+            "{}, which with the uniform force makes {} kBT/R0 half a box away",
+            plain(trap_stiffness),
+            rounded(largest)
+        ),
+        format!("at most {} kBT/R0 there", plain(LARGEST_FIELD_FORCE)),
+    )
+}
+
+/// No two discs may attract each other more than the engine can sum.
+fn check_strengths(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    let capillary_strength = configuration.system.capillary_strength;
+    let coupling = |strength: f64| capillary_strength * strength * strength;
+    let strengths = configuration.strengths.repeated().iter().map(|&strength| to_number(strength));
+    let Some(strength) =
+        strengths.into_iter().find(|&strength| coupling(strength) > LARGEST_CAPILLARY_STRENGTH)
+    else {
+        return Ok(());
+    };
+    let table = if configuration.physical.is_some() { "physical" } else { "system" };
+    Err(refusal(
+        entries,
+        &format!("{table}.strengths"),
+        format!("f = {}, which makes V0*f^2 = {} kBT", plain(strength), rounded(coupling(strength))),
+        format!("V0*f^2 of at most {} kBT", plain(LARGEST_CAPILLARY_STRENGTH)),
+    ))
 }
 
 /// The unit of time must be a number of seconds.

@@ -18,6 +18,10 @@ pub(super) enum Checked {
     Whole(u64),
     /// Of [`Kind::Real`].
     Real(f64),
+    /// Of [`Kind::Pair`].
+    Pair([f64; 2]),
+    /// Of [`Kind::Numbers`].
+    Numbers(Vec<f64>),
     /// Of [`Kind::Boolean`].
     Boolean(bool),
     /// Of [`Kind::Choice`] and [`Kind::Path`].
@@ -89,6 +93,22 @@ impl Entries {
     pub(super) fn real(&self, name: &str) -> Option<f64> {
         match self.values.get(name) {
             Some((Checked::Real(value), _)) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// The two numbers of a key, if given.
+    pub(super) fn pair(&self, name: &str) -> Option<[f64; 2]> {
+        match self.values.get(name) {
+            Some((Checked::Pair(value), _)) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// The numbers of a key, if given.
+    pub(super) fn numbers(&self, name: &str) -> Option<&[f64]> {
+        match self.values.get(name) {
+            Some((Checked::Numbers(values), _)) => Some(values),
             _ => None,
         }
     }
@@ -206,15 +226,20 @@ fn check(key: &Key, item: &Item) -> Result<Checked, (String, String)> {
                 .ok_or_else(out_of_range)
         }
         Kind::Real { least, closed, most, infinite } => {
-            let value = match item.as_integer() {
-                Some(value) => value as f64,
-                None => item.as_float().ok_or_else(mistyped)?,
-            };
+            let value = number(item).ok_or_else(mistyped)?;
             let above = if closed { value >= least } else { value > least };
             let accepted = above && value <= most && (value.is_finite() || infinite);
             // The sum turns −0 into 0.
             if accepted { Ok(Checked::Real(value + 0.0)) } else { Err(out_of_range()) }
         }
+        Kind::Pair { least, most } => match numbers(key, item, least, most)?[..] {
+            [x, y] => Ok(Checked::Pair([x, y])),
+            ref others => Err((format!("an array of {} numbers", others.len()), key.accepted())),
+        },
+        Kind::Numbers { least, most } => match numbers(key, item, least, most)? {
+            values if values.is_empty() => Err(("an empty array".to_owned(), key.accepted())),
+            values => Ok(Checked::Numbers(values)),
+        },
         Kind::Boolean => item.as_bool().map(Checked::Boolean).ok_or_else(mistyped),
         Kind::Choice(words) => {
             let word = item.as_str().ok_or_else(mistyped)?;
@@ -225,6 +250,26 @@ fn check(key: &Key, item: &Item) -> Result<Checked, (String, String)> {
             path => Ok(Checked::Text(path.to_owned())),
         },
     }
+}
+
+/// The number of an item, whole or not.
+fn number(item: &Item) -> Option<f64> {
+    item.as_integer().map(|value| value as f64).or_else(|| item.as_float())
+}
+
+/// The numbers of an array, each from `least` to `most`.
+fn numbers(key: &Key, item: &Item, least: f64, most: f64) -> Result<Vec<f64>, (String, String)> {
+    let array = item.as_array().ok_or_else(|| (describe(item), key.accepted()))?;
+    let element = |value: &Value| {
+        let item = Item::Value(value.clone());
+        match number(&item) {
+            // The sum turns -0 into 0.
+            Some(number) if number >= least && number <= most => Ok(number + 0.0),
+            Some(_) => Err((format!("{} in the array", repeat(&item)), key.accepted())),
+            None => Err((format!("{} in the array", describe(&item)), key.accepted())),
+        }
+    };
+    array.iter().map(element).collect()
 }
 
 /// The whole number of an item.

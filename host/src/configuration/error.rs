@@ -110,6 +110,14 @@ pub enum ConfigurationError {
         /// What is accepted.
         expected: String,
     },
+    /// The accuracy of the force cannot be had with what is given.
+    #[error("{place}: {}", one_line(.reason))]
+    Accuracy {
+        /// Where the accuracy was given.
+        place: Place,
+        /// Why, and what would do.
+        reason: String,
+    },
     /// Required keys are missing.
     #[error("{place}: missing {keys}")]
     Missing {

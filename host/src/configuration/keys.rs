@@ -12,15 +12,16 @@
 
 use std::fmt;
 
+use meniscus_core::fields::LARGEST_FIELD_FORCE;
 use meniscus_core::parameters::{
     DISPLACEMENT_RANGE, GRID_RANGE, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, LARGEST_SEED,
-    SMALLEST_CAPILLARY_LENGTH, STEP_RANGE,
+    LARGEST_STRENGTH, SMALLEST_CAPILLARY_LENGTH, SMALLEST_CUTOFF, SPLITTING_RANGE, STEP_RANGE,
 };
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::LARGEST_SIDE;
 
-use super::VERSION;
 use super::names::{self, words};
+use super::{ACCURACY_RANGE, VERSION};
 
 /// What a key accepts. `Display` says it in words.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +50,20 @@ pub enum Kind {
         most: f64,
         /// Whether infinity is accepted.
         infinite: bool,
+    },
+    /// Two numbers in a range, ends included: an array of the components along x and y.
+    Pair {
+        /// Least accepted.
+        least: f64,
+        /// Most accepted.
+        most: f64,
+    },
+    /// One or more numbers in a range, ends included: an array.
+    Numbers {
+        /// Least accepted.
+        least: f64,
+        /// Most accepted.
+        most: f64,
     },
     /// `true` or `false`.
     Boolean,
@@ -111,6 +126,10 @@ pub const TABLES: &[Table] = &[
     Table { name: "physical", help: "The discs, their box and their attraction, in SI." },
     Table { name: "force", help: "How the capillary force is summed." },
     Table { name: "mesh", help: "The mesh of the capillary force." },
+    Table {
+        name: "field",
+        help: "External fields, which act on every disc alike; in R0 and kBT, with physical too.",
+    },
     Table { name: "motion", help: "Thermal motion and the step rule." },
     Table { name: "start", help: "Where the discs are at time zero; lengths in R0." },
     Table { name: "time", help: "When the run ends." },
@@ -126,10 +145,17 @@ const COUNT: Kind = Kind::Whole { least: 1, most: LARGEST_PARTICLE_COUNT as u64 
 /// A capillary strength in kBT.
 const STRENGTH: Kind =
     Kind::Real { least: 0.0, closed: true, most: LARGEST_CAPILLARY_STRENGTH, infinite: false };
+/// Capillary strengths of discs.
+const STRENGTHS: Kind = Kind::Numbers { least: -LARGEST_STRENGTH, most: LARGEST_STRENGTH };
+/// What they mean.
+const STRENGTHS_HELP: &str =
+    "Strengths f of the discs, repeated over their ids: a pair attracts with V0*f_i*f_j";
+/// Default of strengths in words.
+const STRENGTHS_DEFAULT: &str = "[1], or those of the start's file";
 /// The unit of times in words.
 const TIMES: &str = "Jeans' times T, or R0^2/D if V0 = 0";
 
-const METHOD_WORDS: &[&str] = &words(&names::METHODS);
+const METHOD_WORDS: &[&str] = &names::method_words();
 const ASSIGNMENT_WORDS: &[&str] = &words(&names::ASSIGNMENTS);
 const INFLUENCE_WORDS: &[&str] = &words(&names::INFLUENCES);
 const GRADIENT_WORDS: &[&str] = &words(&names::GRADIENTS);
@@ -181,6 +207,13 @@ pub const KEYS: &[Key] = &[
         help: "Capillary length lambda, the range of the attraction",
     },
     Key {
+        name: "system.strengths",
+        kind: STRENGTHS,
+        unit: "",
+        default: STRENGTHS_DEFAULT,
+        help: STRENGTHS_HELP,
+    },
+    Key {
         name: "system.repulsion",
         kind: Kind::Boolean,
         unit: "",
@@ -224,6 +257,13 @@ pub const KEYS: &[Key] = &[
         default: "none: capillary_strength is given instead",
         help: "Surface tension gamma of the interface",
     },
+    Key {
+        name: "physical.strengths",
+        kind: STRENGTHS,
+        unit: "",
+        default: STRENGTHS_DEFAULT,
+        help: STRENGTHS_HELP,
+    },
     Key { name: "physical.temperature", kind: ABOVE_ZERO, unit: "K", default: "", help: "Temperature" },
     Key {
         name: "physical.mobility",
@@ -243,36 +283,78 @@ pub const KEYS: &[Key] = &[
         name: "force.method",
         kind: Kind::Choice(METHOD_WORDS),
         unit: "",
-        default: "\"pm\"",
-        help: "Method of summation: particle-mesh, as in the paper",
+        default: "\"p3m\"",
+        help: "Method of summation: mesh and near pairs to a given accuracy, or the mesh alone, as in the paper",
+    },
+    Key {
+        name: "force.accuracy",
+        kind: Kind::Real { least: ACCURACY_RANGE.0, closed: true, most: ACCURACY_RANGE.1, infinite: false },
+        unit: "",
+        default: "0.001",
+        help: "Largest estimated error of p3m, rms, relative to the rms force of discs at random",
+    },
+    Key {
+        name: "force.splitting",
+        kind: Kind::Real { least: SPLITTING_RANGE.0, closed: true, most: SPLITTING_RANGE.1, infinite: false },
+        unit: "1/R0",
+        default: "chosen for the accuracy",
+        help: "Splitting alpha of p3m: the larger, the more is left to the mesh",
+    },
+    Key {
+        name: "force.cutoff",
+        kind: Kind::Real { least: SMALLEST_CUTOFF, closed: true, most: f64::INFINITY, infinite: false },
+        unit: "R0",
+        default: "chosen for the accuracy",
+        help: "Cut-off of the near part of p3m, below half the box",
     },
     Key {
         name: "mesh.grid",
         kind: Kind::PowerOfTwo { least: GRID_RANGE.0 as u64, most: GRID_RANGE.1 as u64 },
         unit: "",
-        default: "the smallest that gives a spacing of at most 1 R0",
+        default: "with p3m chosen for the accuracy, with pm the smallest that gives a spacing of at most 1 R0",
         help: "Nodes along a side",
     },
     Key {
         name: "mesh.assignment",
         kind: Kind::Choice(ASSIGNMENT_WORDS),
         unit: "",
-        default: "\"tsc\"",
-        help: "Mass assignment: cloud in cell (4 nodes) or triangular shaped cloud (9 nodes)",
+        default: "with p3m chosen for the accuracy, with pm \"tsc\"",
+        help: "Mass assignment: cloud in cell (4 nodes), triangular shaped cloud (9), or a B-spline of higher order",
     },
     Key {
         name: "mesh.influence",
         kind: Kind::Choice(INFLUENCE_WORDS),
         unit: "",
-        default: "\"paper\"",
-        help: "Influence function: the paper's (five-point Laplacian) or the continuum's",
+        default: "\"optimal\" with p3m, \"paper\" with pm",
+        help: "Influence function: with pm the paper's (five-point Laplacian) or the continuum's, with p3m the optimal",
     },
     Key {
         name: "mesh.gradient",
         kind: Kind::Choice(GRADIENT_WORDS),
         unit: "",
         default: "\"spectral\"",
-        help: "Gradient: spectral, or a central difference of 2 or 4 points",
+        help: "Gradient: spectral, or with pm a central difference of 2 or 4 points",
+    },
+    Key {
+        name: "field.uniform_force",
+        kind: Kind::Pair { least: -LARGEST_FIELD_FORCE, most: LARGEST_FIELD_FORCE },
+        unit: "kBT/R0",
+        default: "[0, 0]",
+        help: "Uniform force along x and y",
+    },
+    Key {
+        name: "field.trap_stiffness",
+        kind: FROM_ZERO,
+        unit: "kBT/R0^2",
+        default: "0",
+        help: "Stiffness k of a harmonic trap, 0 for none: the force is -k times the distance from its centre",
+    },
+    Key {
+        name: "field.trap_center",
+        kind: Kind::Pair { least: 0.0, most: LARGEST_SIDE },
+        unit: "R0",
+        default: "the middle of the box",
+        help: "Centre of the trap",
     },
     Key {
         name: "motion.noise",
@@ -399,6 +481,12 @@ impl fmt::Display for Kind {
                     (true, false, false) => write!(formatter, "a number above {}", plain(least))?,
                 }
                 if infinite { formatter.write_str(" or inf") } else { Ok(()) }
+            }
+            Self::Pair { least, most } => {
+                write!(formatter, "[x, y], two numbers from {} to {}", plain(least), plain(most))
+            }
+            Self::Numbers { least, most } => {
+                write!(formatter, "an array of numbers from {} to {}", plain(least), plain(most))
             }
             Self::Boolean => formatter.write_str("true or false"),
             Self::Choice(words) => {

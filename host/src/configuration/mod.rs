@@ -8,7 +8,7 @@
 //! ```
 //! use meniscus::configuration::Configuration;
 //!
-//! let overrides = ["system.capillary_length=1500".to_owned(), "mesh.assignment=cic".to_owned()];
+//! let overrides = ["system.capillary_length=1500".to_owned(), "force.accuracy=3e-4".to_owned()];
 //! let configuration = Configuration::from_preset("table-1", &overrides)?;
 //! assert_eq!(configuration.system.particles, 2500);
 //! assert_eq!(configuration.system.capillary_length, 1500.0);
@@ -24,16 +24,18 @@ mod error;
 pub mod keys;
 mod names;
 mod presets;
+mod scheme;
 mod sections;
 mod system;
 mod write;
 
 pub use error::{ConfigurationError, Place};
-pub use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise};
+pub use meniscus_core::fields::Fields;
+pub use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
 pub use presets::{PRESETS, Preset, preset};
 pub use sections::{
-    DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Lattice, Mesh, Method, Motion, Output, Start, Time,
-    default_grid,
+    ACCURACY_RANGE, DEFAULT_ACCURACY, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Lattice, Mesh,
+    Motion, Output, Start, Time, default_grid,
 };
 pub use system::{Attraction, BOLTZMANN_CONSTANT, Physical, System};
 
@@ -44,6 +46,8 @@ use std::path::Path;
 
 use meniscus_core::parameters::Parameters;
 
+use crate::accuracy::{self, Scheme};
+use crate::strengths::Strengths;
 use crate::theory::Instability;
 
 /// The version of the format that this program reads and writes.
@@ -66,10 +70,14 @@ pub struct Configuration {
     pub physical: Option<Physical>,
     /// The system in R0 and kBT; that of `physical`, reduced, if there is one.
     pub system: System,
+    /// Capillary strengths of the discs.
+    pub strengths: Strengths,
     /// How the capillary force is summed.
     pub force: Force,
     /// The mesh.
     pub mesh: Mesh,
+    /// External fields.
+    pub fields: Fields,
     /// Thermal motion and the step rule.
     pub motion: Motion,
     /// Where the discs are at time zero.
@@ -83,8 +91,8 @@ pub struct Configuration {
 impl Configuration {
     /// Reads a file, then `overrides` (each `key=value`, the value in TOML or a bare word).
     ///
-    /// An override displaces what the file says of its key. If it changes `start.kind`, the file's
-    /// keys of its own kind of start go; if it gives the attraction in SI by one way, the file's other
+    /// An override displaces what the file says of its key. If it changes `start.kind` or `force.method`, what
+    /// the file says for its own kind of start or method alone goes; if it gives the attraction in SI by one way, the file's other
     /// way goes. Keys that only overrides give are checked like the file's.
     ///
     /// # Errors
@@ -153,21 +161,52 @@ impl Configuration {
     /// What the engine needs.
     #[must_use]
     pub fn parameters(&self) -> Parameters {
+        let (splitting, cutoff) = match self.force {
+            Force::P3m { splitting, cutoff, .. } => (splitting, cutoff),
+            Force::ParticleMesh => (Parameters::DEFAULT.splitting, Parameters::DEFAULT.cutoff),
+        };
         Parameters {
             side: self.system.side,
             capillary_strength: self.system.capillary_strength,
             capillary_length: self.system.capillary_length,
             repulsion: self.system.repulsion,
+            method: self.force.method(),
+            splitting,
+            cutoff,
             grid: self.mesh.grid,
             assignment: self.mesh.assignment,
             influence: self.mesh.influence,
             gradient: self.mesh.gradient,
+            fields: self.fields,
             noise: self.motion.noise,
             max_step: self.motion.max_step,
             max_displacement: self.motion.max_displacement,
             seed: self.seed,
-            ..Parameters::DEFAULT
         }
+    }
+
+    /// What the error of the capillary force depends on besides the scheme.
+    #[must_use]
+    pub fn force_system(&self) -> accuracy::System {
+        let System { particles, side, capillary_strength, capillary_length, .. } = self.system;
+        let mean_square_strength = self.strengths.mean_square(particles);
+        accuracy::System { side, particles, capillary_strength, capillary_length, mean_square_strength }
+    }
+
+    /// Estimated error of the capillary force, rms, relative to the rms force of discs at random; 0 without
+    /// attraction, None with `pm`, whose error is not estimated.
+    #[must_use]
+    pub fn estimated_error(&self) -> Option<f64> {
+        let Force::P3m { splitting, cutoff, .. } = self.force else { return None };
+        let system = self.force_system();
+        let Mesh { grid, assignment, .. } = self.mesh;
+        Some(accuracy::estimate(&system, &Scheme { grid, assignment, splitting, cutoff }).relative())
+    }
+
+    /// How the capillary force is summed, in one line.
+    #[must_use]
+    pub fn scheme_line(&self) -> String {
+        scheme::line(self)
     }
 
     /// Mean density ρ_h of the discs where they start, R0⁻²: the density in Jeans' time.
@@ -190,11 +229,21 @@ impl Configuration {
         }
     }
 
+    /// V0·⟨f²⟩, kBT: the strength of the attraction in Jeans' time and wavenumber, the mean being over all discs.
+    #[must_use]
+    pub fn attraction(&self) -> f64 {
+        let System { particles, capillary_strength, .. } = self.system;
+        capillary_strength * self.strengths.mean_square(particles)
+    }
+
     /// Jeans' instability of the start taken as an ideal gas; None without attraction.
+    ///
+    /// Of discs of unequal strengths f, a pair attracting with V0·f_i·f_j, what grows by Eqs. 7 to 10 is the mode of
+    /// the density of f, with V0·⟨f²⟩ in place of V0.
     #[must_use]
     pub fn instability(&self) -> Option<Instability> {
-        let System { capillary_strength, capillary_length, .. } = self.system;
-        Instability::of_ideal_gas(capillary_strength, self.mean_density(), capillary_length)
+        let capillary_length = self.system.capillary_length;
+        Instability::of_ideal_gas(self.attraction(), self.mean_density(), capillary_length)
     }
 
     /// Jeans' time T of the start, R0²/D (Eq. 7); None without attraction.
@@ -232,6 +281,11 @@ mod tests {
         Configuration::from_preset(name, &overrides).map_err(|error| error.to_string())
     }
 
+    /// The same with the splitting given, so that the rest is chosen fast.
+    fn quickly(name: &str, overrides: &[&str]) -> Result<Configuration, String> {
+        preset_with(name, &[overrides, &["force.splitting=0.1"]].concat())
+    }
+
     #[track_caller]
     fn assert_near(value: f64, expected: f64, relative: f64) {
         assert!((value / expected - 1.0).abs() <= relative, "{value} is not {expected} within {relative}");
@@ -239,7 +293,7 @@ mod tests {
 
     #[test]
     fn jeans_time_of_table_1_in_si() {
-        let configuration = preset_with("table-1-si", &[]).unwrap();
+        let configuration = quickly("table-1-si", &[]).unwrap();
         let seconds = configuration.seconds_per_time_unit().unwrap();
         assert_near(seconds, 2278.0, 2e-4);
         assert_near(configuration.jeans_time().unwrap() * seconds, 40_780.0, 2e-3);
@@ -247,12 +301,14 @@ mod tests {
 
     #[test]
     fn table_1_in_si_is_table_1() {
-        let reduced = preset_with("table-1", &[]).unwrap();
-        let physical = preset_with("table-1-si", &[]).unwrap();
+        let reduced = quickly("table-1", &[]).unwrap();
+        let physical = quickly("table-1-si", &[]).unwrap();
         assert_near(physical.system.side, reduced.system.side, 1e-15);
         assert_near(physical.system.capillary_length, reduced.system.capillary_length, 1e-15);
         assert_eq!(physical.system.particles, reduced.system.particles);
-        assert_eq!(Configuration { physical: None, system: reduced.system, ..physical }, reduced);
+        // An ulp of the side shows in the middle of the box.
+        let Configuration { system, fields, .. } = reduced.clone();
+        assert_eq!(Configuration { physical: None, system, fields, ..physical }, reduced);
     }
 
     #[test]
@@ -261,26 +317,26 @@ mod tests {
         let thermal_energy = BOLTZMANN_CONSTANT * 300.0;
         let force = (0.89 * thermal_energy * 2.0 * PI * tension).sqrt();
         let force = format!("physical.force={force:?}");
-        let by_force = preset_with("table-1-si", &[&force, "physical.surface_tension=0.072"]).unwrap();
+        let by_force = quickly("table-1-si", &[&force, "physical.surface_tension=0.072"]).unwrap();
         assert_near(by_force.system.capillary_strength, 0.89, 1e-14);
     }
 
     #[test]
     fn the_density_of_a_patch_is_that_of_the_patch() {
-        let rings = preset_with("fig-12", &[]).unwrap();
+        let rings = quickly("fig-12", &[]).unwrap();
         assert_near(rings.mean_density(), 450.0 / (PI * 183.0 * 183.0), 1e-4);
         assert_near(rings.jeans_time().unwrap(), 41.81, 1e-4);
-        let disc = preset_with("fig-14", &[]).unwrap();
+        let disc = quickly("fig-14", &[]).unwrap();
         assert_near(disc.mean_density(), 451.0 / (PI * 183.0 * 183.0), 1e-15);
-        let random = preset_with("fig-2", &[]).unwrap();
+        let random = quickly("fig-2", &[]).unwrap();
         assert_near(random.mean_density(), 0.01, 1e-15);
     }
 
     #[test]
     fn times_are_in_jeans_times_with_attraction_and_in_diffusion_times_without() {
-        let attracted = preset_with("table-1", &[]).unwrap();
+        let attracted = quickly("table-1", &[]).unwrap();
         assert_near(attracted.end_time(), 5.0 * 17.8825, 1e-4);
-        let free = preset_with("table-1", &["system.capillary_strength=0"]).unwrap();
+        let free = quickly("table-1", &["system.capillary_strength=0"]).unwrap();
         assert_eq!(free.jeans_time(), None);
         assert_eq!(free.end_time(), 5.0);
     }
@@ -289,8 +345,8 @@ mod tests {
     fn a_minimal_configuration_has_the_defaults_of_table_1() {
         let text = "version = 1\nsystem = { particles = 2500, box = 500, capillary_strength = 0.89, \
                     capillary_length = 270 }";
-        let minimal = Configuration::from_text("minimal", text, &[]).unwrap();
-        assert_eq!(minimal, preset_with("table-1", &[]).unwrap());
+        let minimal = Configuration::from_text("minimal", text, &["force.splitting=0.1".to_owned()]).unwrap();
+        assert_eq!(minimal, quickly("table-1", &[]).unwrap());
         let free = "version = 1\nsystem = { particles = 10, box = 50, capillary_strength = 0 }";
         let free = Configuration::from_text("free", free, &[]).unwrap();
         assert_eq!(free.time.until, DEFAULT_DIFFUSION_TIMES);
@@ -299,12 +355,12 @@ mod tests {
 
     #[test]
     fn overrides_take_toml_values_and_bare_words() {
-        let configuration = preset_with(
+        let configuration = quickly(
             "table-1",
-            &["mesh.assignment=cic", "motion.noise = \"none\"", "system.capillary_length=inf", "seed=7"],
+            &["mesh.assignment=order-6", "motion.noise = \"none\"", "system.capillary_length=inf", "seed=7"],
         )
         .unwrap();
-        assert_eq!(configuration.mesh.assignment, Assignment::CloudInCell);
+        assert_eq!(configuration.mesh.assignment, Assignment::Order6);
         assert_eq!(configuration.motion.noise, Noise::None);
         assert_eq!(configuration.system.capillary_length, f64::INFINITY);
         assert_eq!(configuration.seed, 7);
@@ -312,17 +368,69 @@ mod tests {
 
     #[test]
     fn the_last_override_of_a_key_holds() {
-        assert_eq!(preset_with("table-1", &["seed=7", "seed=8"]).unwrap().seed, 8);
+        assert_eq!(quickly("table-1", &["seed=7", "seed=8"]).unwrap().seed, 8);
     }
 
     #[test]
     fn an_overridden_kind_of_start_displaces_the_keys_of_the_other() {
-        let disc = preset_with("fig-12", &["start.kind=disc", "start.radius=183"]).unwrap();
+        let disc = quickly("fig-12", &["start.kind=disc", "start.radius=183"]).unwrap();
         assert_eq!(disc.start, Start::Disc { radius: 183.0 });
         let error = preset_with("fig-12", &["start.kind=disc", "start.radius=183", "start.rings=9"]);
         assert_eq!(
             error.unwrap_err(),
             "--set: start.rings: not allowed with start.kind = \"disc\": it belongs to start.kind = \"rings\""
+        );
+    }
+
+    #[test]
+    fn an_overridden_method_displaces_what_belongs_to_the_other() {
+        let p3m = preset_with("table-1", &["force.splitting=0.3", "mesh.grid=256"]).unwrap();
+        let Force::P3m { accuracy, splitting, .. } = p3m.force else { panic!("{:?}", p3m.force) };
+        assert_eq!((accuracy, splitting, p3m.mesh.grid), (DEFAULT_ACCURACY, 0.3, 256));
+        let with = |text: &str, overrides: &[&str]| {
+            let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+            Configuration::from_text("text", text, &overrides).map_err(|error| error.to_string())
+        };
+        let pm = with(&p3m.to_toml(), &["force.method=pm", "mesh.gradient=difference-4"]).unwrap();
+        assert_eq!((pm.force, pm.mesh.influence), (Force::ParticleMesh, Influence::Paper));
+        let again = with(&pm.to_toml(), &["force.method=p3m", "force.accuracy=2e-3"]).unwrap();
+        assert_eq!((again.mesh.influence, again.mesh.gradient), (Influence::Optimal, Gradient::Spectral));
+        assert_eq!((again.mesh.grid, again.mesh.assignment), (256, p3m.mesh.assignment));
+        assert!(again.estimated_error().unwrap() <= 2e-3);
+        assert_eq!(
+            with(&pm.to_toml(), &["force.method=p3m", "mesh.gradient=difference-4"]).unwrap_err(),
+            "--set: mesh.gradient: found \"difference-4\", expected \"spectral\" with force.method = \"p3m\"; \
+             \"difference-4\" belongs to force.method = \"pm\""
+        );
+        assert_eq!(
+            with(&p3m.to_toml(), &["force.method=pm", "force.cutoff=9"]).unwrap_err(),
+            "--set: force.cutoff: not allowed with force.method = \"pm\": it belongs to force.method = \"p3m\""
+        );
+    }
+
+    #[test]
+    fn a_whole_scheme_need_only_keep_to_the_accuracy() {
+        let scheme =
+            ["mesh.grid=256", "mesh.assignment=order-4", "force.splitting=0.2731", "force.cutoff=8.538"];
+        let estimated = preset_with("table-1", &scheme).unwrap().estimated_error().unwrap();
+        let just = format!("force.accuracy={:?}", 1.01 * estimated);
+        let again = preset_with("table-1", &[&scheme[..], &[&just]].concat()).unwrap();
+        assert_eq!(again.estimated_error(), Some(estimated));
+        // What is chosen has a margin.
+        let [grid, assignment, splitting, _] = scheme;
+        let chosen = preset_with("table-1", &[grid, assignment, splitting, &just]);
+        assert!(chosen.is_err() || chosen.unwrap().estimated_error().unwrap() < 0.9 * estimated);
+    }
+
+    #[test]
+    fn a_scheme_is_told_in_one_line() {
+        let p3m = ["force.splitting=0.4", "force.cutoff=10", "mesh.grid=512", "mesh.assignment=order-7"];
+        let line = preset_with("table-1", &p3m).unwrap().scheme_line();
+        assert!(line.starts_with("force: p3m, accuracy 1e-3 (estimated "), "{line}");
+        assert!(line.ends_with("): grid 512, order-7, splitting 0.4, cutoff 10"), "{line}");
+        assert_eq!(
+            preset_with("table-1", &["force.method=pm"]).unwrap().scheme_line(),
+            "force: pm: grid 512 (spacing 0.977 R0), tsc, influence paper, gradient spectral"
         );
     }
 
@@ -362,7 +470,7 @@ mod tests {
 
     #[test]
     fn an_argument_is_a_file_or_a_preset() {
-        assert!(Configuration::from_argument("fig-3", &[]).is_ok());
+        assert!(Configuration::from_argument("fig-3", &["force.method=pm".to_owned()]).is_ok());
         let missing = Configuration::from_argument("no/such.toml", &[]).unwrap_err();
         assert!(matches!(missing, ConfigurationError::Unreadable { .. }));
     }

@@ -1,25 +1,60 @@
 //! The words of a configuration for each choice: one table per choice, read and written from.
 
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise};
+use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
 
-use super::{Lattice, Method};
+use super::Lattice;
 
 /// The words for one choice.
 pub(super) type Words<T, const COUNT: usize> = [(&'static str, T); COUNT];
 
-/// `force.method`.
-pub(super) const METHODS: Words<Method, 1> = [("pm", Method::ParticleMesh)];
 /// `mesh.assignment`.
-pub(super) const ASSIGNMENTS: Words<Assignment, 2> =
-    [("cic", Assignment::CloudInCell), ("tsc", Assignment::TriangularShapedCloud)];
+pub(super) const ASSIGNMENTS: Words<Assignment, 6> = [
+    ("cic", Assignment::CloudInCell),
+    ("tsc", Assignment::TriangularShapedCloud),
+    ("order-4", Assignment::Order4),
+    ("order-5", Assignment::Order5),
+    ("order-6", Assignment::Order6),
+    ("order-7", Assignment::Order7),
+];
 /// `mesh.influence`.
-pub(super) const INFLUENCES: Words<Influence, 2> =
-    [("paper", Influence::Paper), ("continuum", Influence::Continuum)];
+pub(super) const INFLUENCES: Words<Influence, 3> =
+    [("paper", Influence::Paper), ("continuum", Influence::Continuum), ("optimal", Influence::Optimal)];
 /// `mesh.gradient`.
 pub(super) const GRADIENTS: Words<Gradient, 3> = [
     ("spectral", Gradient::Spectral),
     ("difference-2", Gradient::Difference2),
     ("difference-4", Gradient::Difference4),
+];
+/// A method's word and what belongs to it.
+pub(super) struct MethodWord {
+    /// The method.
+    pub(super) method: Method,
+    /// The word.
+    pub(super) word: &'static str,
+    /// Keys that no other method has.
+    pub(super) own: &'static [&'static str],
+    /// The words of `mesh.influence` that it accepts.
+    pub(super) influences: &'static [&'static str],
+    /// The words of `mesh.gradient` that it accepts.
+    pub(super) gradients: &'static [&'static str],
+}
+
+/// `force.method`, the default first.
+pub(super) const METHODS: [MethodWord; 2] = [
+    MethodWord {
+        method: Method::P3m,
+        word: "p3m",
+        own: &["force.accuracy", "force.splitting", "force.cutoff"],
+        influences: &["optimal"],
+        gradients: &["spectral"],
+    },
+    MethodWord {
+        method: Method::ParticleMesh,
+        word: "pm",
+        own: &[],
+        influences: &["paper", "continuum"],
+        gradients: &["spectral", "difference-2", "difference-4"],
+    },
 ];
 /// `motion.noise`.
 pub(super) const NOISES: Words<Noise, 3> =
@@ -58,6 +93,17 @@ pub(super) const fn words<T: Copy, const COUNT: usize>(table: &Words<T, COUNT>) 
     words
 }
 
+/// The words of [`METHODS`] alone.
+pub(super) const fn method_words() -> [&'static str; METHODS.len()] {
+    let mut words = [""; METHODS.len()];
+    let mut index = 0;
+    while index < words.len() {
+        words[index] = METHODS[index].word;
+        index += 1;
+    }
+    words
+}
+
 /// The words of [`STARTS`] alone.
 pub(super) const fn start_words() -> [&'static str; STARTS.len()] {
     let mut words = [""; STARTS.len()];
@@ -77,4 +123,9 @@ pub(super) fn meaning<T: Copy>(table: &[(&'static str, T)], word: &str) -> Optio
 /// The word for a choice.
 pub(super) fn word<T: PartialEq>(table: &[(&'static str, T)], choice: &T) -> &'static str {
     table.iter().find(|(_, value)| value == choice).map_or("", |(name, _)| name)
+}
+
+/// The word for a method.
+pub(super) fn method_word(method: Method) -> &'static str {
+    METHODS.iter().find(|known| known.method == method).map_or("", |known| known.word)
 }

@@ -11,28 +11,63 @@
 
 use std::path::PathBuf;
 
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise};
+use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
 
-/// How the capillary force is summed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// The particle-mesh method of the paper (`pm`).
-    #[default]
+use super::names::{ASSIGNMENTS, method_word, word};
+
+/// Table `force`: how the capillary force is summed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Force {
+    /// All of it on the mesh, as in the paper (`pm`).
     ParticleMesh,
+    /// The far part on the mesh, the near part pair by pair (`p3m`).
+    P3m {
+        /// Largest estimated error accepted, rms, relative to the rms force of discs at random.
+        accuracy: f64,
+        /// Splitting α between far and near part, 1/R0.
+        splitting: f64,
+        /// Cut-off r_c of the near part, R0.
+        cutoff: f64,
+    },
 }
 
-/// Table `force`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Force {
-    /// How the capillary force is summed.
-    pub method: Method,
+impl Force {
+    /// The method alone.
+    #[must_use]
+    pub const fn method(&self) -> Method {
+        match self {
+            Self::ParticleMesh => Method::ParticleMesh,
+            Self::P3m { .. } => Method::P3m,
+        }
+    }
 }
+
+impl Force {
+    /// The word of the method, as in `force.method`.
+    #[must_use]
+    pub fn method_word(&self) -> &'static str {
+        method_word(self.method())
+    }
+}
+
+impl Mesh {
+    /// The word of the assignment, as in `mesh.assignment`.
+    #[must_use]
+    pub fn assignment_word(&self) -> &'static str {
+        word(&ASSIGNMENTS, &self.assignment)
+    }
+}
+
+/// Default of `force.accuracy`.
+pub const DEFAULT_ACCURACY: f64 = 1e-3;
+/// Smallest and largest `force.accuracy`.
+pub const ACCURACY_RANGE: (f64, f64) = (1e-5, 1e-2);
 
 /// Table `mesh`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mesh {
-    /// Nodes M along a side: a power of two, 16 to 4096. Left out of a file it is
-    /// [`default_grid`] of the box.
+    /// Nodes M along a side: a power of two, 16 to 4096. Left out of a file it is chosen for the accuracy
+    /// with `p3m`, and [`default_grid`] of the box with `pm`.
     pub grid: usize,
     /// Mass assignment.
     pub assignment: Assignment,
@@ -42,8 +77,8 @@ pub struct Mesh {
     pub gradient: Gradient,
 }
 
-/// The number of mesh nodes along a box of `side` R0 unless a configuration says otherwise: the
-/// smallest power of two, 16 to 4096, whose spacing is at most 1 R0, the paper's.
+/// The number of mesh nodes along a box of `side` R0 with `pm` unless a configuration says otherwise:
+/// the smallest power of two, 16 to 4096, whose spacing is at most 1 R0, the paper's.
 #[must_use]
 pub fn default_grid(side: f64) -> usize {
     let (least, most) = meniscus_core::parameters::GRID_RANGE;
@@ -119,8 +154,8 @@ pub enum Start {
 /// Table `time`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Time {
-    /// When the run ends: in Jeans' times T if there is attraction (default 5), in R0²/D if V0 = 0,
-    /// when there is no T (default 10).
+    /// When the run ends: in Jeans' times T if there is attraction (default 5), in R0²/D if V0 or all
+    /// strengths are 0, when there is no T (default 10).
     pub until: f64,
 }
 

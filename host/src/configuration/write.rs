@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use toml_edit::Value;
 
 use super::keys::{KEYS, Key, TABLES};
-use super::names::{ASSIGNMENTS, GRADIENTS, INFLUENCES, LATTICES, METHODS, NOISES, word};
-use super::{Attraction, Configuration, Physical, Start, System};
+use super::names::{ASSIGNMENTS, GRADIENTS, INFLUENCES, LATTICES, NOISES, method_word, word};
+use super::{Attraction, Configuration, Force, Physical, Start, System};
+use crate::strengths::{Strengths, to_number};
 
 /// The whole configuration as TOML.
 pub(super) fn to_toml(configuration: &Configuration) -> String {
@@ -30,13 +31,26 @@ pub(super) fn to_toml(configuration: &Configuration) -> String {
 /// One key with its comment, if it applies.
 fn write_key(text: &mut String, configuration: &Configuration, key: &Key) {
     if let Some(value) = value(configuration, key.name) {
-        let _ = writeln!(text, "# {}: {}\n{} = {value}", key.help, key.accepted(), key.leaf());
+        let _ = writeln!(text, "# {}: {}", key.help, key.accepted());
+        if let ("force.accuracy", Some(error)) = (key.name, configuration.estimated_error()) {
+            let _ = writeln!(
+                text,
+                "# Estimated with splitting, cutoff, grid and assignment as below: {error:.1e}"
+            );
+        }
+        let _ = writeln!(text, "{} = {value}", key.leaf());
     }
 }
 
 /// The value of a key as TOML; None if the key does not apply.
 fn value(configuration: &Configuration, name: &str) -> Option<String> {
-    let Configuration { physical, system, force, mesh, motion, start, time, output, .. } = configuration;
+    let Configuration { physical, system, force, mesh, fields, motion, start, time, output, .. } =
+        configuration;
+    match (name, physical, &configuration.strengths) {
+        ("system.strengths", None, Strengths::Pattern(pattern))
+        | ("physical.strengths", Some(_), Strengths::Pattern(pattern)) => return Some(numbers(pattern)),
+        _ => {}
+    }
     if let Some(leaf) = name.strip_prefix("system.") {
         return if physical.is_none() { system_value(system, leaf) } else { None };
     }
@@ -46,14 +60,25 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
     if let Some(leaf) = name.strip_prefix("start.") {
         return start_value(start, leaf);
     }
+    if let (Some(leaf), Force::P3m { accuracy, splitting, cutoff }) = (name.strip_prefix("force."), force) {
+        match leaf {
+            "accuracy" => return Some(real(*accuracy)),
+            "splitting" => return Some(real(*splitting)),
+            "cutoff" => return Some(real(*cutoff)),
+            _ => {}
+        }
+    }
     Some(match name {
         "version" => configuration.version.to_string(),
         "seed" => configuration.seed.to_string(),
-        "force.method" => quoted(word(&METHODS, &force.method)),
+        "force.method" => quoted(method_word(force.method())),
         "mesh.grid" => mesh.grid.to_string(),
         "mesh.assignment" => quoted(word(&ASSIGNMENTS, &mesh.assignment)),
         "mesh.influence" => quoted(word(&INFLUENCES, &mesh.influence)),
         "mesh.gradient" => quoted(word(&GRADIENTS, &mesh.gradient)),
+        "field.uniform_force" => pair(fields.uniform_force),
+        "field.trap_stiffness" => real(fields.trap_stiffness),
+        "field.trap_center" => pair(fields.trap_center),
         "motion.noise" => quoted(word(&NOISES, &motion.noise)),
         "motion.max_step" => real(motion.max_step),
         "motion.max_displacement" => real(motion.max_displacement),
@@ -119,6 +144,15 @@ fn start_value(start: &Start, leaf: &str) -> Option<String> {
 /// The fewest digits that read back to the same number, always a TOML float.
 fn real(value: f64) -> String {
     format!("{value:?}")
+}
+
+fn numbers(strengths: &[i32]) -> String {
+    let numbers: Vec<String> = strengths.iter().map(|&strength| real(to_number(strength))).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+fn pair([x, y]: [f64; 2]) -> String {
+    format!("[{}, {}]", real(x), real(y))
 }
 
 fn quoted(text: &str) -> String {
