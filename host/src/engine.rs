@@ -211,6 +211,20 @@ impl Engine {
         self.slots.iter().map(|&slot| at(slot)).collect()
     }
 
+    /// The capillary strengths in the order of ids, unit 2⁻²⁰.
+    #[must_use]
+    pub fn strengths(&self) -> Vec<i32> {
+        self.slots.iter().map(|&slot| self.strengths[slot as usize]).collect()
+    }
+
+    /// The discs in the order of ids, as [`Engine::with_ids`] takes them.
+    #[must_use]
+    pub fn discs(&self) -> Vec<Disc> {
+        let strengths = self.strengths().into_iter();
+        let discs = (0..).zip(self.positions()).zip(strengths);
+        discs.map(|((id, position), strength)| Disc { id, position, strength }).collect()
+    }
+
     /// How many borders each disc has crossed along x and y since the run was set up, in the order of ids.
     #[must_use]
     pub fn crossings(&self) -> Vec<[i32; 2]> {

@@ -108,7 +108,7 @@ pub enum Culprit {
     Y(String, String),
     /// Both coordinates; the digests of the state.
     Positions(String, String),
-    /// The header of the bytes: format version or step.
+    /// What else is in the bytes: format version, step or capillary strengths.
     Header(String, String),
 }
 
@@ -134,7 +134,7 @@ impl fmt::Display for Difference {
             Culprit::X(expected, found) => ("x differs", expected, found),
             Culprit::Y(expected, found) => ("y differs", expected, found),
             Culprit::Positions(expected, found) => ("x and y differ", expected, found),
-            Culprit::Header(expected, found) => ("the header differs", expected, found),
+            Culprit::Header(expected, found) => ("the header or the strengths differ", expected, found),
         };
         write!(formatter, "step {step}: {what_differs}: expected {expected}, found {found}")
     }

@@ -16,7 +16,7 @@ use crate::configuration::{Configuration, Lattice, Start};
 use crate::engine::{Engine, EngineError};
 use crate::files::state::State;
 use crate::start::{self, StartError};
-use meniscus_core::dynamics::Clock;
+use meniscus_core::dynamics::{Clock, Disc};
 use meniscus_core::torus::{Torus, TorusError};
 use meniscus_core::units::{TIME_UNITS, time_from_units};
 use thiserror::Error;
@@ -52,14 +52,24 @@ pub struct Simulation {
 impl Simulation {
     /// Places the discs as the configuration says. A start from a file takes its step and time too, if it has
     /// them: the run goes on where that state was, bit for bit from a state file (the time in extended XYZ is exact up
-    /// to 8192 R0²/D).
+    /// to 8192 R0²/D). Capillary strengths in the file take the place of the default in the configuration kept here,
+    /// and so in its Jeans' time.
     ///
     /// # Errors
     /// A [`SimulationError`].
-    pub fn new(configuration: Configuration) -> Result<Self, SimulationError> {
+    pub fn new(mut configuration: Configuration) -> Result<Self, SimulationError> {
         let torus = torus(&configuration)?;
-        let State { positions, step, time } = initial_state(&configuration, &torus)?;
-        let engine = Engine::new(&configuration.parameters(), Clock { step, time }, &positions)?;
+        let State { positions, step, time, strengths } = initial_state(&configuration, &torus)?;
+        if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {
+            configuration.strengths = start::settle_strengths(configuration.strengths, strengths, path)?;
+        }
+        let strengths = &configuration.strengths;
+        let discs = (0..).zip(positions).map(|(id, position)| Disc {
+            id,
+            position,
+            strength: strengths.of(id as usize),
+        });
+        let engine = Engine::with_ids(&configuration.parameters(), Clock { step, time }, discs)?;
         Ok(Self { configuration, torus, engine })
     }
 

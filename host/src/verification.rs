@@ -20,7 +20,6 @@
 use crate::engine::{Engine, EngineError};
 use crate::golden::{Difference, Golden, Record};
 use crate::simulation::{Simulation, SimulationError};
-use meniscus_core::torus::Position;
 
 /// Runs `engine` from its state to the last record of `golden` and compares at each record; `report` sees the
 /// records that agree.
@@ -57,8 +56,7 @@ pub fn compare_storage_orders(
     last: u64,
 ) -> Result<Option<Difference>, SimulationError> {
     let Simulation { configuration, mut engine, .. } = simulation;
-    let positions: Vec<(u32, Position)> = (0..).zip(engine.positions()).collect();
-    let reversed = positions.into_iter().rev();
+    let reversed = engine.discs().into_iter().rev();
     let mut other = Engine::with_ids(&configuration.parameters(), engine.clock(), reversed)?;
     while engine.clock().step < last {
         engine.step()?;

@@ -6,7 +6,8 @@ use meniscus::files::state::{State, StateError};
 use meniscus::files::{FileError, atomic, csv, read_positions};
 use meniscus::observables::clusters::Clusters;
 use meniscus::start;
-use meniscus_core::parameters::LARGEST_PARTICLE_COUNT;
+use meniscus::strengths::{ONE, all_one};
+use meniscus_core::parameters::{LARGEST_PARTICLE_COUNT, LARGEST_STRENGTH};
 use meniscus_core::torus::{Position, SMALLEST_SIDE, Torus};
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -25,7 +26,8 @@ fn any_positions() -> impl Strategy<Value = Vec<Position>> {
 }
 
 fn frame(positions: &[Position]) -> Frame<'_> {
-    Frame { step: 0, time: 0, time_over_jeans: None, time_step: 0.001, positions, clustered: None }
+    let (time_over_jeans, strengths, clustered) = (None, &[][..], None);
+    Frame { step: 0, time: 0, time_over_jeans, time_step: 0.001, positions, strengths, clustered }
 }
 
 fn frames(torus: &Torus, all: &[Frame<'_>]) -> Vec<u8> {
@@ -39,20 +41,70 @@ fn xyz(torus: &Torus, text: &str) -> Result<State, String> {
 }
 
 fn table(torus: &Torus, text: &str) -> Result<Vec<Position>, String> {
-    csv::parse(text.as_bytes(), torus).map_err(|error| error.to_string())
+    csv::parse(text.as_bytes(), torus).map(|state| state.positions).map_err(|error| error.to_string())
+}
+
+/// Discs with strengths of which not all are 1.
+fn any_discs() -> impl Strategy<Value = (Vec<Position>, Vec<i32>)> {
+    let largest = LARGEST_STRENGTH as i32 * ONE;
+    let strength = prop_oneof![-largest..=largest, Just(ONE), Just(0), Just(-ONE), Just(largest)];
+    (any_positions(), prop::collection::vec(strength, 50))
+        .prop_map(|(positions, mut strengths)| {
+            strengths.truncate(positions.len());
+            (positions, strengths)
+        })
+        .prop_filter("not all are 1", |(_, strengths)| !all_one(strengths))
 }
 
 proptest! {
     #[test]
     fn csv_gives_the_same_bits_again(torus in any_torus(), positions in any_positions()) {
-        let text = csv::format(&torus, &positions);
-        prop_assert_eq!(csv::parse(text.as_bytes(), &torus).unwrap(), positions);
+        let text = csv::format(&torus, &positions, &[]);
+        prop_assert_eq!(csv::parse(text.as_bytes(), &torus).unwrap(), State::at_start(positions));
+    }
+
+    #[test]
+    fn strengths_come_back_with_the_same_bits(
+        torus in any_torus(), (positions, strengths) in any_discs(), step in any::<u64>(), with_clusters in any::<bool>(),
+    ) {
+        let state = State { step, time: 1 << 40, positions, strengths: Some(strengths.clone()) };
+        let bytes = state.to_bytes();
+        prop_assert_eq!(bytes.len(), 32 + 8 * strengths.len() + 12 + 4 * strengths.len());
+        prop_assert_eq!(State::from_bytes(&bytes).unwrap(), state.clone());
+        let table = csv::format(&torus, &state.positions, &strengths);
+        let read = csv::parse(table.as_bytes(), &torus).unwrap();
+        prop_assert_eq!((&read.positions, &read.strengths), (&state.positions, &state.strengths));
+        let clusters = Clusters::find(&torus, &state.positions);
+        let clustered = with_clusters.then_some(&clusters);
+        let frame = Frame { step, time: 1 << 40, strengths: &strengths, clustered, ..frame(&state.positions) };
+        let text = frames(&torus, &[frame]);
+        prop_assert_eq!(extended_xyz::parse(Cursor::new(text), &torus, FrameChoice::Last).unwrap(), state);
+    }
+
+    #[test]
+    fn a_damaged_state_with_strengths_is_read_or_refused(
+        (positions, strengths) in any_discs(), place in any::<prop::sample::Index>(), byte in any::<u8>(),
+    ) {
+        let state = State { step: 3, time: 4, positions, strengths: Some(strengths) };
+        let whole = state.to_bytes();
+        let place = place.index(whole.len());
+        // Without its section a state is whole.
+        let without = 32 + 8 * state.positions.len();
+        prop_assert_eq!(State::from_bytes(&whole[..place]).is_err(), place != without);
+        let mut bytes = whole.clone();
+        bytes.push(byte);
+        prop_assert_eq!(State::from_bytes(&bytes), Err(StateError::Trailing { expected: whole.len() as u64 }));
+        bytes.pop();
+        bytes[place] = byte;
+        if let Ok(read) = State::from_bytes(&bytes) {
+            prop_assert_eq!(read.to_bytes(), bytes);
+        }
     }
 
     #[test]
     fn csv_rows_may_come_in_any_order(positions in any_positions(), turn in any::<prop::sample::Index>()) {
         let torus = torus(500.0);
-        let text = csv::format(&torus, &positions);
+        let text = csv::format(&torus, &positions, &[]);
         let (names, rows) = text.split_once('\n').unwrap();
         let mut rows: Vec<&str> = rows.lines().collect();
         if !rows.is_empty() {
@@ -61,7 +113,7 @@ proptest! {
         }
         rows.reverse();
         let text = format!("{names}\n{}", rows.join("\n"));
-        prop_assert_eq!(csv::parse(text.as_bytes(), &torus).unwrap(), positions);
+        prop_assert_eq!(csv::parse(text.as_bytes(), &torus).unwrap().positions, positions);
     }
 
     #[test]
@@ -75,15 +127,15 @@ proptest! {
     ) {
         let clusters = Clusters::find(&torus, &positions);
         let clustered = with_clusters.then_some(&clusters);
-        let frame = Frame { step, time, time_over_jeans, time_step: 1e-3, positions: &positions, clustered };
+        let frame = Frame { step, time, time_over_jeans, clustered, ..frame(&positions) };
         let text = frames(&torus, &[frame]);
         let state = extended_xyz::parse(Cursor::new(text), &torus, FrameChoice::Last).unwrap();
-        prop_assert_eq!(state, State { positions, step, time });
+        prop_assert_eq!(state, State { positions, step, time, strengths: None });
     }
 
     #[test]
     fn states_give_the_same_bytes_again(positions in any_positions(), step in any::<u64>(), time in any::<u64>()) {
-        let state = State { step, time, positions };
+        let state = State { step, time, positions, strengths: None };
         let bytes = state.to_bytes();
         prop_assert_eq!(bytes.len(), 32 + 8 * state.positions.len());
         prop_assert_eq!(State::from_bytes(&bytes).unwrap(), state);
@@ -91,7 +143,7 @@ proptest! {
 
     #[test]
     fn states_of_another_length_are_refused(positions in any_positions(), length in 0..500_usize) {
-        let mut bytes = State { step: 1, time: 2, positions }.to_bytes();
+        let mut bytes = State { step: 1, time: 2, positions, strengths: None }.to_bytes();
         let expected = bytes.len();
         prop_assume!(length != expected);
         bytes.resize(length, 0);
@@ -100,15 +152,13 @@ proptest! {
             StateError::Truncated { found, .. } => prop_assert_eq!(found, length as u64),
             StateError::Trailing { expected: said } => prop_assert_eq!(said, expected as u64),
             StateError::Magic => prop_assert_eq!(length, 0),
-            StateError::Version { .. } | StateError::Count { .. } => {
-                prop_assert!(false, "version and number of discs were right");
-            }
+            _ => prop_assert!(false, "version and number of discs were right: {error}"),
         }
     }
 
     #[test]
     fn a_state_of_too_many_discs_is_refused_by_its_header(count in LARGEST_PARTICLE_COUNT as u32 + 1..) {
-        let mut bytes = State { step: 1, time: 2, positions: Vec::new() }.to_bytes();
+        let mut bytes = State { step: 1, time: 2, ..State::default() }.to_bytes();
         bytes[12..16].copy_from_slice(&count.to_le_bytes());
         prop_assert_eq!(State::from_bytes(&bytes), Err(StateError::Count { found: count }));
     }
@@ -130,9 +180,9 @@ proptest! {
         positions in any_positions(), place in any::<prop::sample::Index>(), byte in any::<u8>(),
     ) {
         let torus = torus(500.0);
-        let state = State { step: 3, time: 4, positions: positions.clone() };
+        let state = State { step: 3, time: 4, ..State::at_start(positions.clone()) };
         let whole = [
-            csv::format(&torus, &positions).into_bytes(),
+            csv::format(&torus, &positions, &[]).into_bytes(),
             frames(&torus, &[frame(&positions), frame(&positions)]),
             state.to_bytes(),
         ];
@@ -192,6 +242,58 @@ fn csv_says_where_and_what_is_wrong() {
     ] {
         assert_eq!(table(&torus, text), Err(message.to_owned()), "{text:?}");
     }
+}
+
+#[test]
+fn strengths_are_read_from_a_column_and_rounded_to_their_unit() {
+    let torus = torus(8.0);
+    let from_table = |text: &str| csv::parse(text.as_bytes(), &torus).unwrap().strengths;
+    let from_frame = |text: &str| xyz(&torus, text).unwrap().strengths;
+    // 0.1 is 104857.6 units.
+    let expected = Some(vec![-ONE, 104_858, 1000 * ONE]);
+    assert_eq!(from_table("strength,x,y,id\n1000,1,1,2\n-1,1,1,0\n0.1,1,1,1\n"), expected);
+    let properties = "Properties=id:I:1:strength:R:1:pos:R:3";
+    assert_eq!(from_frame(&format!("3\n{properties}\n2 1e3 1 1 0\n0 -1 1 1 0\n1 0.1 1 1 0\n")), expected);
+    // Ones are said, and that is not the same as nothing.
+    assert_eq!(from_table("x,y,strength\n1,1,1\n"), Some(vec![ONE]));
+    assert_eq!(from_table("x,y\n1,1\n"), None);
+    // A column of vectors is something else.
+    assert_eq!(from_frame("1\nProperties=pos:R:3:strength:R:2\n1 1 1 7 7\n"), None);
+    assert_eq!(csv::format(&torus, &[Position::from_bits(0, 0)], &[ONE]), "id,x,y\n0,0,0\n");
+    assert_eq!(
+        csv::format(&torus, &[Position::from_bits(0, 0)], &[-ONE / 4]),
+        "id,x,y,strength\n0,0,0,-0.25\n"
+    );
+}
+
+#[test]
+fn strengths_that_are_none_are_refused() {
+    let torus = torus(8.0);
+    for value in ["", "one", "nan", "inf", "1000.1", "-1e4"] {
+        let message = table(&torus, &format!("x,y,strength\n1,1,{value}\n")).unwrap_err();
+        let expected =
+            format!("line 2, column strength: found `{value}`, expected a number from -1000 to 1000");
+        assert_eq!(message, expected);
+    }
+    let frame = "1\nProperties=pos:R:3:strength:R:1\n1 1 0 x\n";
+    assert_eq!(
+        xyz(&torus, frame).unwrap_err(),
+        "line 3, column strength: found `x`, expected a number from -1000 to 1000"
+    );
+    let good = State { strengths: Some(vec![ONE, 2]), ..State::at_start(vec![Position::from_bits(3, 4); 2]) };
+    let good = good.to_bytes();
+    let with = |place: usize, bytes: &[u8]| {
+        let mut changed = good.clone();
+        changed[place..place + bytes.len()].copy_from_slice(bytes);
+        State::from_bytes(&changed)
+    };
+    assert_eq!(with(48, b"STRE").unwrap().strengths, Some(vec![ONE, 2]));
+    assert_eq!(with(48, b"STRO"), Err(StateError::Trailing { expected: 48 }));
+    assert_eq!(with(52, &[9]), Err(StateError::Strengths { found: 9, expected: 8 }));
+    assert_eq!(with(64, &ONE.to_le_bytes()), Err(StateError::Ones));
+    let beyond = 1000 * ONE + 1;
+    assert_eq!(with(64, &beyond.to_le_bytes()), Err(StateError::Strength { id: 1, strength: beyond }));
+    assert!(matches!(with(64, &i32::MIN.to_le_bytes()), Err(StateError::Strength { id: 1, .. })));
 }
 
 #[test]
@@ -280,7 +382,7 @@ fn extended_xyz_says_where_and_what_is_wrong() {
 #[test]
 fn state_bytes_are_laid_out_as_documented() {
     let positions = vec![Position::from_bits(0x0403_0201, 0x0807_0605), Position::from_bits(1, 2)];
-    let bytes = State { step: 0x11, time: 0x22, positions }.to_bytes();
+    let bytes = State { step: 0x11, time: 0x22, ..State::at_start(positions) }.to_bytes();
     let expected: Vec<u8> = [
         &b"MENISCUS"[..],
         &[1, 0, 0, 0, 2, 0, 0, 0],
@@ -295,7 +397,7 @@ fn state_bytes_are_laid_out_as_documented() {
 
 #[test]
 fn what_is_no_state_is_told_apart() {
-    let good = State { step: 1, time: 2, positions: vec![Position::from_bits(3, 4)] }.to_bytes();
+    let good = State { step: 1, time: 2, ..State::at_start(vec![Position::from_bits(3, 4)]) }.to_bytes();
     let changed = |place: usize, byte: u8| {
         let mut bytes = good.clone();
         bytes[place] = byte;
@@ -318,14 +420,14 @@ fn the_ending_tells_the_format() {
     let torus = torus(500.0);
     let positions = start::random(&torus, 10, 1).unwrap();
     let at = |name: &str| folder.path().join(name);
-    let state = State { step: 5, time: 6, positions: positions.clone() };
-    csv::write(&at("a.csv"), &torus, &positions).unwrap();
+    let state = State { step: 5, time: 6, ..State::at_start(positions.clone()) };
+    csv::write(&at("a.csv"), &torus, &positions, &[]).unwrap();
     state.write(&at("a.state")).unwrap();
     let text = frames(&torus, &[Frame { step: 5, time: 6, ..frame(&positions) }]);
     atomic::write_atomically(&at("a.xyz"), &text).unwrap();
     atomic::write_atomically(&at("a.extxyz"), &text).unwrap();
 
-    let timed = State { positions: positions.clone(), step: 5, time: 6 };
+    let timed = State { step: 5, time: 6, ..State::at_start(positions.clone()) };
     assert_eq!(read_positions(&at("a.csv"), &torus).unwrap(), State { step: 0, time: 0, ..timed.clone() });
     for name in ["a.state", "a.xyz", "a.extxyz"] {
         assert_eq!(read_positions(&at(name), &torus).unwrap(), timed, "{name}");
@@ -354,7 +456,7 @@ fn messages_name_the_file_in_one_line() {
 fn a_long_state_file_is_read_no_further_than_it_should_be() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("long.state");
-    let mut bytes = State { step: 1, time: 2, positions: vec![Position::from_bits(3, 4)] }.to_bytes();
+    let mut bytes = State { step: 1, time: 2, ..State::at_start(vec![Position::from_bits(3, 4)]) }.to_bytes();
     bytes.resize(1 << 20, 7);
     std::fs::write(&path, bytes).unwrap();
     let message = State::read(&path).unwrap_err().to_string();

@@ -266,7 +266,7 @@ fn a_file_holds_as_many_discs_as_configured_or_is_refused() {
     let path = folder.path().join("start.csv");
     let torus = torus(500.0);
     let positions = start::random(&torus, 20, 1).unwrap();
-    csv::write(&path, &torus, &positions).unwrap();
+    csv::write(&path, &torus, &positions, &[]).unwrap();
     assert_eq!(start::file(&torus, &path, 20).unwrap().positions, positions);
     let error = start::file(&torus, &path, 21).unwrap_err();
     assert!(matches!(error, StartError::Count { found: 20, wanted: 21, .. }));

@@ -1,11 +1,12 @@
 //! Positions as comma-separated values.
 //!
 //! The first line names the columns. `x` and `y` are coordinates in R0 in [0, L); `id`, if there, is the
-//! number of the disc from 0, and else rows are in id order; other columns are passed over. Lines that
-//! begin with `#` and empty lines are too. A quoted value ends on its line.
+//! number of the disc from 0, and else rows are in id order; `strength`, if there, is the capillary strength f;
+//! other columns are passed over. Lines that begin with `#` and empty lines are too. A quoted value ends on its
+//! line.
 //!
-//! Files are written with the columns `id,x,y` and as many digits as tell every position from the next, so
-//! that reading gives the same bits again.
+//! Files are written with the columns `id,x,y`, and `strength` unless all are 1, and as many digits as tell every
+//! position from the next, so that reading gives the same bits again.
 //!
 //! ```
 //! use meniscus::files::csv;
@@ -13,17 +14,22 @@
 //!
 //! let torus = Torus::new(8.0).unwrap();
 //! let text = "# two discs\nid,x,y,colour\n1,4,4,red\n0,0.5,7.75,blue\n";
-//! let positions = csv::parse(text.as_bytes(), &torus).unwrap();
-//! assert_eq!(csv::format(&torus, &positions), "id,x,y\n0,0.5,7.75\n1,4,4\n");
+//! let state = csv::parse(text.as_bytes(), &torus).unwrap();
+//! assert_eq!(csv::format(&torus, &state.positions, &[]), "id,x,y\n0,0.5,7.75\n1,4,4\n");
+//!
+//! let state = csv::parse("x,y,strength\n1,2,1\n3,4,-0.5\n".as_bytes(), &torus).unwrap();
+//! assert_eq!(state.strengths, Some(vec![1 << 20, -1 << 19]));
 //!
 //! let error = csv::parse("x,y\n4,8\n".as_bytes(), &torus).unwrap_err();
 //! assert_eq!(error.to_string(), "line 2, column y: found `8`, expected a number of R0 in [0, 8)");
 //! ```
 
 use super::atomic::write_atomically;
-use super::identities::{Rows, coordinate};
+use super::identities::{Rows, coordinate, strength};
 use super::lines::Lines;
+use super::state::State;
 use super::{FileError, FormatError, read_with};
+use crate::strengths;
 use ::csv::{ByteRecord, ReaderBuilder, Trim};
 use meniscus_core::torus::{Position, Torus};
 use std::fmt::Write as _;
@@ -35,21 +41,22 @@ struct Columns {
     id: Option<usize>,
     x: usize,
     y: usize,
+    strength: Option<usize>,
 }
 
-/// Reads the positions in the file at `path` in id order.
+/// Reads the discs in the file at `path`, as a state at step 0 and time 0.
 ///
 /// # Errors
 /// [`FileError::Read`] naming the line and column.
-pub fn read(path: &Path, torus: &Torus) -> Result<Vec<Position>, FileError> {
+pub fn read(path: &Path, torus: &Torus) -> Result<State, FileError> {
     read_with(path, |input| parse(input, torus))
 }
 
-/// Reads the positions in `input` in id order.
+/// Reads the discs in `input`, as a state at step 0 and time 0.
 ///
 /// # Errors
 /// [`FormatError`] for a missing column, a value that is none, an id missing or used twice.
-pub fn parse(input: impl BufRead, torus: &Torus) -> Result<Vec<Position>, FormatError> {
+pub fn parse(input: impl BufRead, torus: &Torus) -> Result<State, FormatError> {
     let mut lines = Lines::new(input);
     let mut columns = None;
     let mut rows = Rows::default();
@@ -71,7 +78,7 @@ pub fn parse(input: impl BufRead, torus: &Torus) -> Result<Vec<Position>, Format
             expected: "id,x,y or x,y in the first line".to_owned(),
         });
     }
-    rows.into_positions()
+    rows.into_state()
 }
 
 /// The values in one line of text.
@@ -104,7 +111,12 @@ impl Columns {
                 expected: "columns named x and y, and perhaps id".to_owned(),
             })
         };
-        Ok(Self { id: column("id")?, x: coordinate("x")?, y: coordinate("y")? })
+        Ok(Self {
+            id: column("id")?,
+            x: coordinate("x")?,
+            y: coordinate("y")?,
+            strength: column("strength")?,
+        })
     }
 
     /// Reads one row.
@@ -128,26 +140,33 @@ impl Columns {
             x: coordinate(torus, line, "x", value(self.x)?)?,
             y: coordinate(torus, line, "y", value(self.y)?)?,
         };
-        rows.push(line, self.id.map(value).transpose()?, position)
+        let strength = self.strength.map(|column| strength(line, value(column)?)).transpose()?;
+        rows.push(line, self.id.map(value).transpose()?, position, strength)
     }
 }
 
-/// The positions as text: columns `id,x,y`, coordinates in R0 with digits that give the same bits again.
+/// The discs as text: columns `id,x,y`, coordinates in R0 with digits that give the same bits again, and `strength`
+/// (given in units of 2⁻²⁰, written as a number) if there are strengths and not all of them are 1.
 #[must_use]
-pub fn format(torus: &Torus, positions: &[Position]) -> String {
-    let mut text = String::from("id,x,y\n");
+pub fn format(torus: &Torus, positions: &[Position], strengths: &[i32]) -> String {
+    let told = !strengths::all_one(strengths);
+    let mut text = String::from(if told { "id,x,y,strength\n" } else { "id,x,y\n" });
     for (id, position) in positions.iter().enumerate() {
         let (x, y) = (torus.coordinate(position.x), torus.coordinate(position.y));
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{id},{x},{y}");
+        let _ = write!(text, "{id},{x},{y}");
+        let _ = match strengths.get(id) {
+            Some(&strength) if told => writeln!(text, ",{}", strengths::to_number(strength)),
+            _ => writeln!(text),
+        };
     }
     text
 }
 
-/// Writes the positions to the file at `path`, whole or not at all.
+/// Writes the discs to the file at `path`, whole or not at all.
 ///
 /// # Errors
 /// [`FileError::Write`].
-pub fn write(path: &Path, torus: &Torus, positions: &[Position]) -> Result<(), FileError> {
-    write_atomically(path, format(torus, positions).as_bytes())
+pub fn write(path: &Path, torus: &Torus, positions: &[Position], strengths: &[i32]) -> Result<(), FileError> {
+    write_atomically(path, format(torus, positions, strengths).as_bytes())
 }

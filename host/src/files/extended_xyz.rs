@@ -3,11 +3,11 @@
 //! A frame is a line with the number of discs, a line of `key=value`, and a line for each disc. Written
 //! are the box as `Lattice`, the columns as `Properties`, then `pbc`, `step`, `time` (R0²/D),
 //! `time_over_jeans` and `dt`, the length of the next step (R0²/D). The columns are the species `X`, which to ASE is no chemical element;
-//! the position in R0 with digits that give the same bits again, and z = 0; the id; and perhaps whether the
-//! disc belongs to a cluster (1 or 0).
+//! the position in R0 with digits that give the same bits again, and z = 0; the id; the capillary strength unless
+//! all are 1; and perhaps whether the disc belongs to a cluster (1 or 0).
 //!
 //! Read are frames with their columns in any order. `pos` is needed, coordinates being in [0, L); a
-//! `Lattice` has to be that of the box; `id`, `step` and `time` count if there; the rest is passed over.
+//! `Lattice` has to be that of the box; `id`, `strength`, `step` and `time` count if there; the rest is passed over.
 //!
 //! ```
 //! use meniscus::files::extended_xyz::{Frame, FrameChoice, parse, write_frame};
@@ -21,6 +21,7 @@
 //!     time_over_jeans: None,
 //!     time_step: 0.001,
 //!     positions: &positions,
+//!     strengths: &[],
 //!     clustered: None,
 //! };
 //! let mut text = Vec::new();
@@ -35,11 +36,12 @@
 //! ```
 
 use super::error::quoted;
-use super::identities::{Rows, coordinate};
+use super::identities::{Rows, coordinate, strength};
 use super::lines::{Lines, Place};
 use super::state::State;
 use super::{FileError, FormatError, read_with};
 use crate::observables::clusters::Clusters;
+use crate::strengths;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::{TIME_UNITS, time_from_units};
 use std::io::{BufRead, Seek, Write};
@@ -62,6 +64,8 @@ pub struct Frame<'a> {
     pub time_step: f64,
     /// Positions in id order.
     pub positions: &'a [Position],
+    /// Capillary strengths in id order, unit 2⁻²⁰; may be empty if all are 1.
+    pub strengths: &'a [i32],
     /// The clusters, if they are to be in the file.
     pub clustered: Option<&'a Clusters>,
 }
@@ -72,11 +76,13 @@ pub struct Frame<'a> {
 /// What `output` says.
 pub fn write_frame(output: &mut impl Write, torus: &Torus, frame: &Frame<'_>) -> std::io::Result<()> {
     let side = torus.side();
+    let told = !strengths::all_one(frame.strengths);
+    let strength = if told { ":strength:R:1" } else { "" };
     let clustered = if frame.clustered.is_some() { ":clustered:I:1" } else { "" };
     writeln!(output, "{}", frame.positions.len())?;
     write!(
         output,
-        "Lattice=\"{side} 0 0 0 {side} 0 0 0 1\" Properties=species:S:1:pos:R:3:id:I:1{clustered} "
+        "Lattice=\"{side} 0 0 0 {side} 0 0 0 1\" Properties=species:S:1:pos:R:3:id:I:1{strength}{clustered} "
     )?;
     write!(output, "pbc=\"T T F\" step={} time={} ", frame.step, time_from_units(frame.time))?;
     if let Some(time_over_jeans) = frame.time_over_jeans {
@@ -85,6 +91,9 @@ pub fn write_frame(output: &mut impl Write, torus: &Torus, frame: &Frame<'_>) ->
     writeln!(output, "dt={}", frame.time_step)?;
     for (id, position) in frame.positions.iter().enumerate() {
         write!(output, "X {} {} 0 {id}", torus.coordinate(position.x), torus.coordinate(position.y))?;
+        if let Some(&strength) = frame.strengths.get(id).filter(|_| told) {
+            write!(output, " {}", strengths::to_number(strength))?;
+        }
         match frame.clustered {
             Some(clusters) => writeln!(output, " {}", u8::from(clusters.clustered(id)))?,
             None => writeln!(output)?,
@@ -130,7 +139,7 @@ pub fn parse(input: impl BufRead + Seek, torus: &Torus, choice: FrameChoice) -> 
         let text = lines.next()?.ok_or_else(|| cut_off(line, rows.len(), count))?;
         header.columns.add_row(torus, line, text, &mut rows)?;
     }
-    Ok(State { positions: rows.into_positions()?, step: header.step, time: header.time })
+    Ok(State { step: header.step, time: header.time, ..rows.into_state()? })
 }
 
 /// Where the frame chosen begins.
@@ -204,7 +213,7 @@ struct Header {
 impl Header {
     fn parse(torus: &Torus, line: u64, text: &str) -> Result<Self, FormatError> {
         // What a file without `Properties` has.
-        let mut header = Self { columns: Columns { x: 1, y: 2, id: None }, step: 0, time: 0 };
+        let mut header = Self { columns: Columns { x: 1, y: 2, id: None, strength: None }, step: 0, time: 0 };
         let refused = |key: &str, value: &str, expected: String| FormatError::Line {
             line,
             found: format!("{key}={}", quoted(value)),
@@ -261,12 +270,13 @@ struct Columns {
     id: Option<usize>,
     x: usize,
     y: usize,
+    strength: Option<usize>,
 }
 
 impl Columns {
     /// Finds the columns in the value of `Properties`, `name:type:count` again and again.
     fn named(value: &str) -> Option<Self> {
-        let (mut place, mut pos, mut id) = (0_usize, None, None);
+        let (mut place, mut pos, mut id, mut strength) = (0_usize, None, None, None);
         let mut fields = value.split(':');
         while let Some(name) = fields.next() {
             let _type = fields.next()?;
@@ -274,11 +284,12 @@ impl Columns {
             match name {
                 "pos" if count >= 2 => pos = Some(place),
                 "id" if count == 1 => id = Some(place),
+                "strength" if count == 1 => strength = Some(place),
                 _ => {}
             }
             place = place.checked_add(count)?;
         }
-        pos.map(|pos| Self { id, x: pos, y: pos + 1 })
+        pos.map(|pos| Self { id, x: pos, y: pos + 1, strength })
     }
 
     /// Reads the line of one disc.
@@ -294,7 +305,8 @@ impl Columns {
             x: coordinate(torus, line, "x", value(self.x)?)?,
             y: coordinate(torus, line, "y", value(self.y)?)?,
         };
-        rows.push(line, self.id.map(value).transpose()?, position)
+        let strength = self.strength.map(|column| strength(line, value(column)?)).transpose()?;
+        rows.push(line, self.id.map(value).transpose()?, position, strength)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Files that hold positions, and how files are written.
 //!
-//! - [`csv`]: a table with columns `x`, `y` and perhaps `id`
+//! - [`csv`]: a table with columns `x`, `y` and perhaps `id` and `strength`
 //! - [`extended_xyz`]: trajectories for OVITO and ASE
 //! - [`state`]: the canonical bytes of a state
 //! - [`atomic`]: a file is there whole or not at all
@@ -13,7 +13,7 @@
 //! let path = folder.path().join("final.csv");
 //! let torus = Torus::new(500.0).unwrap();
 //! let positions = [Position::from_bits(1, 2), Position::from_bits(u32::MAX, 0)];
-//! csv::write(&path, &torus, &positions).unwrap();
+//! csv::write(&path, &torus, &positions, &[]).unwrap();
 //! assert_eq!(read_positions(&path, &torus).unwrap().positions, positions);
 //! ```
 
@@ -45,7 +45,7 @@ use std::path::Path;
 pub fn read_positions(path: &Path, torus: &Torus) -> Result<State, FileError> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let state = match ending {
-        "csv" => State::at_start(csv::read(path, torus)?),
+        "csv" => csv::read(path, torus)?,
         "xyz" | "extxyz" => extended_xyz::read(path, torus, FrameChoice::Last)?,
         "state" => State::read(path)?,
         _ => return Err(FileError::Ending { path: path.to_owned() }),

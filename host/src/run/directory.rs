@@ -1,7 +1,7 @@
 //! A run's directory: which files there are and what is in them.
 
 use super::{Outcome, Row, RunError, Stop};
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Force};
 use crate::files::extended_xyz::{Frame, write_frame};
 use crate::files::{atomic::write_atomically, csv, state::State};
 use crate::observables::clusters::Clusters;
@@ -110,8 +110,10 @@ impl Directory {
         failed: bool,
     ) -> Result<(), RunError> {
         let positions = simulation.engine.positions();
-        csv::write(&self.path.join("final.csv"), &self.torus, &positions)?;
-        let state = State { step: outcome.clock.step, time: outcome.clock.time, positions };
+        let strengths = simulation.engine.strengths();
+        csv::write(&self.path.join("final.csv"), &self.torus, &positions, &strengths)?;
+        let (step, time) = (outcome.clock.step, outcome.clock.time);
+        let state = State { step, time, positions, strengths: Some(strengths) };
         state.write(&self.path.join("final.state"))?;
         let summary = serde_json::json!({
             "program": concat!("meniscus ", env!("CARGO_PKG_VERSION")),
@@ -131,11 +133,33 @@ impl Directory {
             "time_over_jeans": simulation.time_over_jeans(),
             "jeans_time": simulation.configuration.jeans_time(),
             "time_unit_seconds": simulation.configuration.seconds_per_time_unit(),
+            "force": force(&simulation.configuration),
             "length": outcome.digest.length,
             "digest": outcome.digest.to_string(),
         });
         let text = format!("{summary:#}\n");
         Ok(write_atomically(&self.path.join("run.json"), text.as_bytes())?)
+    }
+}
+
+/// How the capillary force is summed.
+fn force(configuration: &Configuration) -> serde_json::Value {
+    // The words are those of the configuration.
+    let Configuration { force, mesh, .. } = configuration;
+    let (assignment, method) = (mesh.assignment_word(), force.method_word());
+    match *force {
+        Force::ParticleMesh => {
+            serde_json::json!({ "method": method, "grid": mesh.grid, "assignment": assignment })
+        }
+        Force::P3m { accuracy, splitting, cutoff } => serde_json::json!({
+            "method": method,
+            "accuracy": accuracy,
+            "estimated_error": configuration.estimated_error(),
+            "grid": mesh.grid,
+            "assignment": assignment,
+            "splitting": splitting,
+            "cutoff": cutoff,
+        }),
     }
 }
 

@@ -191,13 +191,18 @@ impl Run {
             return Ok(());
         }
         let positions = self.simulation.engine.positions();
+        let strengths = self.simulation.engine.strengths();
         let clusters = Clusters::find(&self.simulation.torus, &positions);
         let time_over_jeans = self.simulation.time_over_jeans();
         // If there are no forces, the step will say so.
         let next_step = self.simulation.engine.next_step().ok();
         let length = next_step.map_or(0, |(length, _)| length);
         if observables {
-            let energies = self.energy.as_ref().map(|energy| energy.of(&positions, None)).unwrap_or_default();
+            let energies = self
+                .energy
+                .as_ref()
+                .map(|energy| energy.of(&positions, Some(&strengths)))
+                .unwrap_or_default();
             self.directory.write_row(&Row { clock, time_over_jeans, next_step, energies }, &clusters)?;
         }
         if trajectory {
@@ -207,6 +212,7 @@ impl Run {
                 time_over_jeans,
                 time_step: time_from_units(length),
                 positions: &positions,
+                strengths: &strengths,
                 clustered: Some(&clusters),
             })?;
         }

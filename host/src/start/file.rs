@@ -2,11 +2,12 @@
 
 use super::StartError;
 use crate::files::{read_positions, state::State};
+use crate::strengths::{Strengths, to_number};
 use meniscus_core::torus::Torus;
 use std::path::Path;
 
-/// The `count` positions in the file at `path`, of any format that
-/// [`read_positions`] knows, with the step and time of the state if the format has them.
+/// The `count` discs in the file at `path`, of any format that [`read_positions`] knows, with their capillary
+/// strengths and the step and time of the state if the file has them.
 ///
 /// # Errors
 /// [`StartError::File`] when the file cannot be read, [`StartError::Count`] when it does not hold `count`
@@ -30,4 +31,40 @@ pub fn file(torus: &Torus, path: &Path, count: usize) -> Result<State, StartErro
         return Err(StartError::Count { path: path.to_owned(), found, wanted: count });
     }
     Ok(state)
+}
+
+/// The strengths of discs of which the file at `path` says `found` (unit 2⁻²⁰, in the order of ids), and the
+/// configuration `configured`: those of the file, unless the configuration says something else than the default.
+///
+/// # Errors
+/// [`StartError::Strength`] when the configuration says another strength than 1 and the file another than that.
+///
+/// ```
+/// use meniscus::start::settle_strengths;
+/// use meniscus::strengths::{ONE, Strengths};
+/// use std::path::Path;
+///
+/// let settle = |configured, found| settle_strengths(configured, found, Path::new("start.csv"));
+/// let found = vec![ONE, -ONE, ONE];
+/// assert_eq!(settle(Strengths::default(), found.clone()).unwrap(), Strengths::OfFile(found.clone()));
+/// let configured = Strengths::Pattern(vec![ONE, -ONE]);
+/// assert_eq!(settle(configured.clone(), found).unwrap(), configured);
+/// assert!(settle(configured, vec![ONE, ONE, ONE]).is_err());
+/// ```
+pub fn settle_strengths(
+    configured: Strengths,
+    found: Vec<i32>,
+    path: &Path,
+) -> Result<Strengths, StartError> {
+    let different = found.iter().enumerate().find(|(id, strength)| configured.of(*id) != **strength);
+    match different {
+        None => Ok(configured),
+        Some(_) if configured == Strengths::default() => Ok(Strengths::OfFile(found)),
+        Some((id, &strength)) => Err(StartError::Strength {
+            path: path.to_owned(),
+            id,
+            found: to_number(strength),
+            configured: to_number(configured.of(id)),
+        }),
+    }
 }

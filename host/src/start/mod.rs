@@ -4,7 +4,7 @@
 //! - [`disc`]: the same within a circular patch
 //! - [`rings`]: concentric rings
 //! - [`square_lattice`], [`hexagonal_lattice`]
-//! - [`file`](file()): positions from a file
+//! - [`file`](file()): positions from a file, perhaps with capillary strengths
 //!
 //! All random bits come from the seed through
 //! [`StepKey`](meniscus_core::noise::StepKey), all the rest is integers, + − × ÷ √ and libm: a
@@ -30,7 +30,7 @@ mod rings;
 mod sequential;
 
 pub use disc::disc;
-pub use file::file;
+pub use file::{file, settle_strengths};
 pub use lattice::{hexagonal_lattice, square_lattice};
 pub use random::random;
 pub use rings::rings;
@@ -100,6 +100,21 @@ pub enum StartError {
         found: usize,
         /// Number of discs configured.
         wanted: usize,
+    },
+    /// A file with other capillary strengths than the configuration.
+    #[error(
+        "{}: disc {id} has the strength {found}, with the strengths of the configuration {configured}: \
+         leave out one of the two", path.display()
+    )]
+    Strength {
+        /// The file.
+        path: PathBuf,
+        /// The first disc that differs.
+        id: usize,
+        /// Its strength in the file.
+        found: f64,
+        /// Its strength as configured.
+        configured: f64,
     },
     /// The file could not be read.
     #[error(transparent)]

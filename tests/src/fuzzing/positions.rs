@@ -2,6 +2,7 @@
 
 use meniscus::files::extended_xyz::{self, Frame, FrameChoice};
 use meniscus::files::{csv, state::State};
+use meniscus::strengths::all_one;
 use meniscus_core::torus::Torus;
 use std::io::Cursor;
 
@@ -13,12 +14,11 @@ const SIDES: [f64; 2] = [8.0, 33.3];
 pub fn positions(data: &[u8]) {
     if let Ok(state) = State::from_bytes(data) {
         assert_eq!(state.to_bytes(), data);
-        let State { step, time, positions } = state;
-        check_texts(&State { step, time: time & !0xFFF, positions });
+        check_texts(&State { time: state.time & !0xFFF, ..state });
     }
     for torus in SIDES.iter().filter_map(|&side| Torus::new(side).ok()) {
-        if let Ok(positions) = csv::parse(data, &torus) {
-            check_texts(&State { positions, ..State::default() });
+        if let Ok(state) = csv::parse(data, &torus) {
+            check_texts(&state);
         }
         for choice in [FrameChoice::Last, FrameChoice::Number(0), FrameChoice::Number(1)] {
             if let Ok(state) = extended_xyz::parse(Cursor::new(data), &torus, choice) {
@@ -29,22 +29,27 @@ pub fn positions(data: &[u8]) {
 }
 
 /// Writes and reads `state`, whose time is a multiple of as many units as binary64 tells apart. The bytes of a
-/// state may be without discs, text may not.
+/// state may be without discs, text may not. Strengths that are all 1 are not written.
 fn check_texts(state: &State) {
-    let &State { step, time, ref positions } = state;
-    let bytes = State { step, time, positions: positions.clone() }.to_bytes();
-    assert_eq!(State::from_bytes(&bytes).as_ref().map(|state| &state.positions), Ok(positions));
+    let told = state.strengths.clone().filter(|strengths| !all_one(strengths));
+    let told = State { strengths: told, ..state.clone() };
+    assert_eq!(State::from_bytes(&state.to_bytes()).as_ref(), Ok(&told));
+    let State { step, time, positions, strengths } = state;
+    let strengths = strengths.as_deref().unwrap_or_default();
     if positions.is_empty() {
         return;
     }
     for torus in SIDES.iter().filter_map(|&side| Torus::new(side).ok()) {
-        let text = csv::format(&torus, positions);
-        assert_eq!(csv::parse(text.as_bytes(), &torus).ok().as_ref(), Some(positions), "{text}");
+        let text = csv::format(&torus, positions, strengths);
+        let again = csv::parse(text.as_bytes(), &torus);
+        assert_eq!(again.ok(), Some(State { step: 0, time: 0, ..told.clone() }), "{text}");
 
-        let frame = Frame { step, time, time_over_jeans: None, time_step: 0.001, positions, clustered: None };
+        let (step, time) = (*step, *time);
+        let (time_over_jeans, time_step, clustered) = (None, 0.001, None);
+        let frame = Frame { step, time, time_over_jeans, time_step, positions, strengths, clustered };
         let mut text = Vec::new();
         assert!(extended_xyz::write_frame(&mut text, &torus, &frame).is_ok());
         let again = extended_xyz::parse(Cursor::new(&text), &torus, FrameChoice::Last);
-        assert_eq!(again.ok().as_ref(), Some(state), "{}", String::from_utf8_lossy(&text));
+        assert_eq!(again.ok().as_ref(), Some(&told), "{}", String::from_utf8_lossy(&text));
     }
 }
