@@ -4,6 +4,7 @@ use super::progress::Progress;
 use super::{CommandError, Source, Verdict, say};
 use crate::run::{GOLDEN_INTERVAL, GoldenRequest, Outcome, Run, Stop};
 use crate::simulation::Simulation;
+use crate::strengths::{Strengths, all_one};
 use meniscus_core::units::time_from_units;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::io::Write;
@@ -78,14 +79,18 @@ fn announce(simulation: &Simulation, directory: &Path) {
     let configuration = &simulation.configuration;
     let system = &configuration.system;
     say(&format!(
-        "{} discs in a box of {} R0, V0 = {} kBT, λ = {} R0, mesh {}², seed {}",
-        system.particles,
-        system.side,
-        system.capillary_strength,
-        system.capillary_length,
-        configuration.mesh.grid,
-        configuration.seed
+        "{} discs in a box of {} R0, V0 = {} kBT, λ = {} R0, seed {}",
+        system.particles, system.side, system.capillary_strength, system.capillary_length, configuration.seed
     ));
+    say(&configuration.scheme_line());
+    let (strengths, count) = (&configuration.strengths, system.particles);
+    if !all_one(strengths.repeated()) {
+        let whose = match strengths {
+            Strengths::Pattern(_) => "the configuration",
+            Strengths::OfFile(_) => "the start's file",
+        };
+        say(&format!("capillary strengths f of {whose}, ⟨f²⟩ = {}", strengths.mean_square(count)));
+    }
     if let Some(jeans) = configuration.jeans_time() {
         let seconds = configuration.seconds_per_time_unit().map(|unit| format!(" = {:.0} s", jeans * unit));
         say(&format!("Jeans' time T = {jeans:.4} R0²/D{}", seconds.unwrap_or_default()));
