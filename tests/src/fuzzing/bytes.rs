@@ -60,7 +60,8 @@ impl Bytes<'_> {
             6 => most.next_up(),
             _ => {
                 let fraction = f64::from(self.bits_32()) / f64::from(u32::MAX);
-                (least + (most - least) * fraction).clamp(least, most)
+                // Not `clamp`, which breaks down where the ends are no range.
+                (least + (most - least) * fraction).max(least).min(most)
             }
         }
     }
