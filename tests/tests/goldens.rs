@@ -7,10 +7,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
 
-use meniscus::configuration::{Assignment, Configuration, Gradient, Influence, Noise};
+use meniscus::configuration::{Assignment, Configuration, Gradient, Influence, Method, Noise};
 use meniscus::golden::Golden;
 use meniscus::simulation::Simulation;
 use meniscus::verification::compare;
+use meniscus_core::fields::FieldForce;
 use std::path::{Path, PathBuf};
 
 const MINT: &str = "MENISCUS_MINT_GOLDENS";
@@ -73,6 +74,16 @@ fn goldens_cover_every_choice_of_scheme() {
             assert!(has(&|c| c.mesh.assignment == assignment && c.mesh.influence == influence));
         }
     }
+    for assignment in Assignment::ALL {
+        assert!(has(&|c| c.mesh.assignment == assignment && c.force.method() == Method::P3m));
+    }
+    for method in [Method::ParticleMesh, Method::P3m] {
+        let of_method = |c: &Configuration| c.force.method() == method;
+        assert!(has(&|c| of_method(c) && c.to_toml().contains("strengths = [1.0, -")));
+    }
+    let has_field = |c: &Configuration| !FieldForce::new(&c.parameters().fields, c.system.side).is_zero();
+    assert!(has(&has_field));
+    assert!(has(&|c| c.system.capillary_length == f64::INFINITY && c.force.method() == Method::P3m));
     for gradient in [Gradient::Spectral, Gradient::Difference2, Gradient::Difference4] {
         assert!(has(&|c| c.mesh.gradient == gradient));
     }
