@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a benchmark that cannot be set up should stop")]
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use meniscus::accuracy::{Given, System, choose};
 use meniscus::engine::Engine;
 use meniscus_core::assignment::{deposit, gather};
 use meniscus_core::cells::for_each_pair;
@@ -12,8 +13,10 @@ use meniscus_core::ermak::{Displacement, displace, largest_force};
 use meniscus_core::grid::Grid;
 use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
 use meniscus_core::mesh::{Tables, solve};
+use meniscus_core::near_part::{fill_table, table_length};
 use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
-use meniscus_core::parameters::{Assignment, Noise, Parameters};
+use meniscus_core::pair_force::PairForce;
+use meniscus_core::parameters::{Assignment, Influence, Method, Noise, Parameters};
 use meniscus_core::repulsion::Repulsion;
 use meniscus_core::torus::{Fraction, Position, Torus};
 use meniscus_core::transform::{AnySize, Complex32};
@@ -55,8 +58,30 @@ fn states() -> [(&'static str, Vec<Position>); 2] {
     [("uniform", uniform()), ("collapsed", collapsed())]
 }
 
+/// The paper's scheme on its mesh.
 fn parameters() -> Parameters {
-    Parameters { side: SIDE, grid: GRID, ..Parameters::default() }
+    Parameters { side: SIDE, grid: GRID, ..Parameters::PAPER }
+}
+
+/// The split force, as it is chosen for an accuracy.
+fn split_parameters(accuracy: f64) -> Parameters {
+    let system = System {
+        side: SIDE,
+        particles: COUNT,
+        capillary_strength: parameters().capillary_strength,
+        capillary_length: parameters().capillary_length,
+        mean_square_strength: 1.0,
+    };
+    let scheme = choose(&system, accuracy, &Given::default()).unwrap().scheme;
+    Parameters {
+        method: Method::P3m,
+        influence: Influence::Optimal,
+        grid: scheme.grid,
+        assignment: scheme.assignment,
+        splitting: scheme.splitting,
+        cutoff: scheme.cutoff,
+        ..parameters()
+    }
 }
 
 fn split(discs: &[Position]) -> (Vec<Fraction>, Vec<Fraction>) {
@@ -69,7 +94,12 @@ fn whole_step(criterion: &mut Criterion) {
         for assignment in [Assignment::CloudInCell, Assignment::TriangularShapedCloud] {
             let parameters = Parameters { assignment, ..parameters() };
             let mut engine = Engine::new(&parameters, Clock::START, &discs).unwrap();
-            let id = BenchmarkId::new(name, format!("{assignment:?}"));
+            let id = BenchmarkId::new(name, format!("paper {assignment:?}"));
+            group.bench_function(id, |bencher| bencher.iter(|| engine.step().unwrap()));
+        }
+        for accuracy in [1e-3, 1e-4, 1e-5] {
+            let mut engine = Engine::new(&split_parameters(accuracy), Clock::START, &discs).unwrap();
+            let id = BenchmarkId::new(name, format!("split {accuracy:e}"));
             group.bench_function(id, |bencher| bencher.iter(|| engine.step().unwrap()));
         }
         let parameters = Parameters { capillary_strength: 0.0, ..parameters() };
@@ -91,7 +121,7 @@ fn mesh_stages(criterion: &mut Criterion) {
     fill_gradient(&parameters(), &mut gradient);
     let tables = Tables { influence: &influence, gradient: &gradient };
     let (mut force_x, mut force_y) = (vec![0; COUNT], vec![0; COUNT]);
-    for assignment in [Assignment::CloudInCell, Assignment::TriangularShapedCloud] {
+    for assignment in Assignment::ALL {
         criterion.bench_function(&format!("deposit {assignment:?}"), |bencher| {
             bencher.iter(|| deposit(assignment, grid(), &x, &y, black_box(&mut nodes)));
         });
@@ -115,6 +145,20 @@ fn particle_stages(criterion: &mut Criterion) {
                 for_each_pair((&x, &y), repulsion.reach(), &mut heads, &mut next, |_, _, separation| {
                     let (along_x, _) = repulsion.force(separation, true).unwrap_or_default();
                     sum = sum.wrapping_add(along_x);
+                });
+                sum
+            });
+        });
+        let split = split_parameters(1e-3);
+        let pair_force = PairForce::new(&split);
+        let mut table = vec![[0.0; 4]; table_length(split.cutoff)];
+        fill_table(split.splitting, split.capillary_length, &mut table);
+        criterion.bench_function(&format!("pairs, repulsion and near part, {name}"), |bencher| {
+            bencher.iter(|| {
+                let mut sum = 0_i64;
+                for_each_pair((&x, &y), pair_force.reach(), &mut heads, &mut next, |_, _, separation| {
+                    let force = pair_force.of(separation, true, PairForce::EQUAL, &table);
+                    sum = sum.wrapping_add(force.unwrap_or_default().0);
                 });
                 sum
             });
