@@ -11,11 +11,13 @@ use meniscus_core::parameters::{Assignment, SMALLEST_CUTOFF, SPLITTING_RANGE};
 /// differs from state to state and from its estimate, exceeds the accuracy by little if at all.
 pub const SAFETY: f64 = 0.8;
 
+/// Smallest and largest accuracy that it makes sense to ask for: below, binary32 and the quanta of mass show; above, the
+/// paper's mesh alone is as good.
+pub const ACCURACY_RANGE: (f64, f64) = (1e-5, 1e-2);
+
 /// Schemes that cost at most this times the cheapest are as good, and the simplest of them is taken: the one of
 /// lowest order, and of the smallest mesh.
 const TIE: f64 = 1.02;
-/// From this accuracy on a force is no longer that force.
-const USELESS_ACCURACY: f64 = 0.1;
 /// Significant decimal digits of an accuracy that a refusal names.
 const ACCURACY_DIGITS: i32 = 2;
 
@@ -145,7 +147,7 @@ fn refusal(system: &System, accuracy: f64, given: &Given) -> Refusal {
         || {
             let limit = reachable(&most_accurate(system, &free));
             match cheapest(system, limit, &free) {
-                Some(choice) if limit < USELESS_ACCURACY => {
+                Some(choice) if limit <= ACCURACY_RANGE.1 => {
                     Remedy::Accuracy { accuracy: limit, choice: Box::new(choice) }
                 }
                 _ => Remedy::NoSplit,

@@ -35,7 +35,7 @@ mod reference;
 mod refusal;
 mod search;
 
-pub use choice::{Choice, Given, SAFETY, choose};
+pub use choice::{ACCURACY_RANGE, Choice, Given, SAFETY, choose};
 pub use cost::{Cost, cost};
 pub use reference::reference_force;
 pub use refusal::{Refusal, Remedy};

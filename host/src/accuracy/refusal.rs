@@ -1,8 +1,8 @@
 //! Why an accuracy is not to be had, and what is.
 
-use super::{Choice, Given, Scheme};
+use super::{ACCURACY_RANGE, Choice, Given, Scheme};
+use crate::configuration::assignment_word;
 use core::fmt;
-use meniscus_core::parameters::Assignment;
 
 /// No scheme is as accurate as was asked for with what is given.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +35,6 @@ pub enum Remedy {
     NoSplit,
 }
 
-/// From this accuracy on, asking for less is no remedy.
-const USELESS_ACCURACY: f64 = 0.1;
-
 impl std::error::Error for Refusal {}
 
 impl fmt::Display for Refusal {
@@ -55,7 +52,7 @@ impl fmt::Display for Refusal {
         match &self.remedy {
             Remedy::Free(choice) => {
                 write!(formatter, "; leave {keys} out, which gives {}", written(&choice.scheme))?;
-                if *reachable < USELESS_ACCURACY {
+                if *reachable <= ACCURACY_RANGE.1 {
                     write!(formatter, ", or set force.accuracy = {reachable:?} or more")?;
                 }
                 Ok(())
@@ -93,14 +90,7 @@ fn given_keys(given: &Given) -> String {
 /// A scheme as configuration keys.
 fn written(scheme: &Scheme) -> String {
     let Scheme { grid, assignment, splitting, cutoff } = *scheme;
-    let assignment = match assignment {
-        Assignment::CloudInCell => "cic",
-        Assignment::TriangularShapedCloud => "tsc",
-        Assignment::Order4 => "order-4",
-        Assignment::Order5 => "order-5",
-        Assignment::Order6 => "order-6",
-        Assignment::Order7 => "order-7",
-    };
+    let assignment = assignment_word(assignment);
     format!(
         "mesh.grid = {grid}, mesh.assignment = \"{assignment}\", force.splitting = {splitting:?}, \
          force.cutoff = {cutoff:?}"

@@ -29,13 +29,15 @@ mod sections;
 mod system;
 mod write;
 
+pub use crate::accuracy::ACCURACY_RANGE;
 pub use error::{ConfigurationError, Place};
 pub use meniscus_core::fields::Fields;
 pub use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
+pub(crate) use names::assignment_word;
 pub use presets::{PRESETS, Preset, preset};
 pub use sections::{
-    ACCURACY_RANGE, DEFAULT_ACCURACY, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Lattice, Mesh,
-    Motion, Output, Start, Time, default_grid,
+    DEFAULT_ACCURACY, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Lattice, Mesh, Motion, Output,
+    Start, Time, default_grid,
 };
 pub use system::{Attraction, BOLTZMANN_CONSTANT, Physical, System};
 

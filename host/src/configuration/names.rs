@@ -129,3 +129,8 @@ pub(super) fn word<T: PartialEq>(table: &[(&'static str, T)], choice: &T) -> &'s
 pub(super) fn method_word(method: Method) -> &'static str {
     METHODS.iter().find(|known| known.method == method).map_or("", |known| known.word)
 }
+
+/// The word for an assignment.
+pub(crate) fn assignment_word(assignment: Assignment) -> &'static str {
+    word(&ASSIGNMENTS, &assignment)
+}

@@ -60,8 +60,6 @@ impl Mesh {
 
 /// Default of `force.accuracy`.
 pub const DEFAULT_ACCURACY: f64 = 1e-3;
-/// Smallest and largest `force.accuracy`.
-pub const ACCURACY_RANGE: (f64, f64) = (1e-5, 1e-2);
 
 /// Table `mesh`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
