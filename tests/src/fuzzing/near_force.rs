@@ -94,7 +94,7 @@ impl Pair<'_> {
         let repulsion = if self.parameters.repulsion { CUTOFF } else { 0.0 };
         let cutoff = repulsion.max(near_cutoff(&self.parameters));
         let Some((force_x, force_y)) = force else {
-            assert!(distance > cutoff * (1.0 - PAIR_FORCE), "no force of {separation:?}");
+            assert!(distance >= cutoff * (1.0 - PAIR_FORCE), "no force of {separation:?}");
             return;
         };
         assert!(distance < cutoff * (1.0 + PAIR_FORCE), "a force of {separation:?}");
