@@ -52,7 +52,7 @@ fn attraction((assignment, influence, gradient): Scheme, side: f64, grid: usize,
         assignment,
         influence,
         gradient,
-        ..Parameters::default()
+        ..Parameters::PAPER
     }
 }
 
@@ -203,7 +203,7 @@ fn repulsion_scale(discs: &[[f64; 2]], disc: usize, side: f64) -> (f64, f64) {
 #[test]
 fn repulsion_of_a_dense_layer_is_the_closed_form() {
     let side = 50.0;
-    let parameters = Parameters { side, capillary_strength: 0.0, grid: 64, ..Parameters::default() };
+    let parameters = Parameters { side, capillary_strength: 0.0, grid: 64, ..Parameters::PAPER };
     // Independent positions: pairs at all distances down to deep overlap.
     let discs = scattered(5, 1000);
     let positions = in_radii(&discs, side);

@@ -18,7 +18,7 @@ const REPULSION: Parameters = Parameters {
     grid: 16,
     assignment: Assignment::CloudInCell,
     noise: Noise::None,
-    ..Parameters::DEFAULT
+    ..Parameters::PAPER
 };
 
 /// Forces by id, unit 2⁻²⁴ kBT/R0, of discs in a box of `side`.
