@@ -10,6 +10,7 @@ pub mod fits;
 pub mod fuzzing;
 pub mod modes;
 pub mod reference;
+pub mod schemes;
 pub mod states;
 pub mod statistics;
 pub mod tolerances;
