@@ -1,13 +1,17 @@
 //! Free diffusion, and what border crossings are for.
+//!
+//! Without attraction the method of summing it changes no bit (tests/invariance.rs), so that one of them is enough.
 
 use meniscus_core::engine::Engine;
 use meniscus_core::parameters::{Assignment, Gradient, Noise, Parameters};
 use meniscus_core::torus::{Position, minimum_image};
 use meniscus_core::units::time_from_units;
+use meniscus_tests::figures::assert_within;
 use meniscus_tests::long_tests;
+use meniscus_tests::schemes::{BOTH, SPLIT};
 use meniscus_tests::states::{at, scattered, with_ids};
 use meniscus_tests::statistics::mean_and_error;
-use meniscus_tests::tolerances::{DIFFUSION_RESOLUTION, SIGMAS_OF_FEW};
+use meniscus_tests::tolerances::{CENTRE_DRIFT, DIFFUSION_RESOLUTION, SIGMAS_OF_FEW, Within};
 
 /// So small a box that discs cross its borders often.
 const SIDE: f64 = 6.0;
@@ -23,7 +27,7 @@ const FREE: Parameters = Parameters {
     grid: 16,
     assignment: Assignment::CloudInCell,
     max_step: 0.05,
-    ..Parameters::DEFAULT
+    ..Parameters::PAPER
 };
 
 /// Where a disc is when its box crossings are counted, unit L·2⁻³².
@@ -102,21 +106,30 @@ fn crossings_count_every_passage_of_a_border() {
 
 #[test]
 fn a_disc_that_is_pulled_across_the_border_is_counted_beyond_it() {
-    // A cold pair, 4 R0 apart across the border and nearer to it on one side: they meet beyond it.
     let parameters = Parameters {
         side: 32.0,
         grid: 32,
         capillary_strength: 50.0,
-        assignment: Assignment::TriangularShapedCloud,
-        gradient: Gradient::Difference2,
         repulsion: true,
         noise: Noise::None,
         max_step: 0.01,
         ..FREE
     };
+    // By a difference, as the paper's gradient rings along the axes of the mesh.
+    assert_pulled_across(&Parameters {
+        assignment: Assignment::TriangularShapedCloud,
+        gradient: Gradient::Difference2,
+        ..parameters
+    });
+    assert_pulled_across(&SPLIT.of(parameters));
+}
+
+/// A cold pair, 4 R0 apart across the border and nearer to it on one side: they meet beyond it.
+#[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+fn assert_pulled_across(parameters: &Parameters) {
     let mut engine = Box::new(Engine::<32, 2>::new());
     let discs = [at(32.0, 0.5, 8.0), at(32.0, 28.5, 8.0)].map(Result::unwrap);
-    engine.init(&parameters, with_ids(&discs)).unwrap();
+    engine.init(parameters, with_ids(&discs)).unwrap();
     for _ in 0..300 {
         engine.step().unwrap();
     }
@@ -126,4 +139,36 @@ fn a_disc_that_is_pulled_across_the_border_is_counted_beyond_it() {
     assert!((pulled - (other - 32.0) - 2.0).abs() < 0.5, "{pulled} {other}");
     // Both went as far.
     assert!((0.5 - pulled - (other - 28.5)).abs() < 1e-3, "{pulled} {other}");
+}
+
+/// The mean of the unwrapped places of 200 discs in a box of `side`, R0 from the origin of the box.
+#[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+fn centre(engine: &Engine<32, 200>, side: f64) -> [f64; 2] {
+    let sum =
+        (0..200).map(|id| unwrapped(engine, id).unwrap()).fold([0, 0], |[x, y], at| [x + at[0], y + at[1]]);
+    sum.map(|units| units as f64 * side / 4_294_967_296.0 / 200.0)
+}
+
+#[test]
+fn without_noise_the_centre_of_attracting_discs_stays() {
+    let parameters = Parameters {
+        side: 40.0,
+        grid: 32,
+        capillary_strength: 5.0,
+        repulsion: true,
+        noise: Noise::None,
+        max_step: 0.001,
+        ..FREE
+    };
+    for scheme in BOTH {
+        let mut engine = Box::new(Engine::<32, 200>::new());
+        engine.init(&scheme.of(parameters), with_ids(&scattered(3, 200))).unwrap();
+        let start = centre(&engine, parameters.side);
+        for _ in 0..100 {
+            engine.step().unwrap();
+        }
+        let end = centre(&engine, parameters.side);
+        let drift = libm::hypot(end[0] - start[0], end[1] - start[1]);
+        assert_within(drift, Within(1e-11, CENTRE_DRIFT), &format!("{}, drift of the centre", scheme.name));
+    }
 }

@@ -4,14 +4,16 @@
 
 use meniscus::engine::Engine;
 use meniscus_core::dynamics::Clock;
-use meniscus_core::parameters::{Gradient, Influence, Noise, Parameters};
+use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise, Parameters};
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::time_from_units;
 use meniscus_tests::figures::assert_within;
 use meniscus_tests::reference::ewald::Ewald;
 use meniscus_tests::reference::{minimum_image, rms, wca};
 use meniscus_tests::states::separated;
-use meniscus_tests::tolerances::{ATTRACTED_DEVIATION, REFERENCE_TIME, REPELLED_DEVIATION, Within};
+use meniscus_tests::tolerances::{
+    ATTRACTED_DEVIATION, REFERENCE_TIME, REPELLED_DEVIATION, SPLIT_DEVIATION, SPLIT_REFERENCE_TIME, Within,
+};
 
 const SIDE: f64 = 24.0;
 const DISCS: usize = 50;
@@ -59,19 +61,32 @@ fn moved(from: &[[f64; 2]], to: &[[f64; 2]]) -> Vec<[f64; 2]> {
     from.iter().zip(to).map(|(a, b)| image(a, b)).collect()
 }
 
+/// All on a mesh, in its most accurate scheme.
+const MESH: Parameters = Parameters {
+    side: SIDE,
+    grid: 64,
+    influence: Influence::Continuum,
+    gradient: Gradient::Difference4,
+    noise: Noise::None,
+    max_step: 0.02,
+    ..Parameters::PAPER
+};
+
+/// The split force on a mesh twice as coarse, αh = 0.37 and αr_c = 4.4.
+const SPLIT: Parameters = Parameters {
+    method: Method::P3m,
+    splitting: 0.5,
+    cutoff: 8.8,
+    grid: 32,
+    assignment: Assignment::Order7,
+    influence: Influence::Optimal,
+    gradient: Gradient::Spectral,
+    ..MESH
+};
+
 /// After 20 steps: the rms difference of the positions over the rms distance covered, and the relative difference
 /// of the times.
-fn deviation(capillary_strength: f64) -> (f64, f64) {
-    let parameters = Parameters {
-        side: SIDE,
-        capillary_strength,
-        grid: 64,
-        influence: Influence::Continuum,
-        gradient: Gradient::Difference4,
-        noise: Noise::None,
-        max_step: 0.02,
-        ..Parameters::default()
-    };
+fn deviation(parameters: Parameters) -> (f64, f64) {
     // Some pairs overlap, so that contacts and the step rule have their part.
     let discs = separated(1, DISCS, SIDE, 1.8);
     assert_eq!(discs.len(), DISCS);
@@ -90,14 +105,23 @@ fn deviation(capillary_strength: f64) -> (f64, f64) {
 
 #[test]
 fn repelling_discs_move_as_in_binary64() {
-    let (positions, time) = deviation(0.0);
-    assert_within(positions, REPELLED_DEVIATION, "positions after 20 steps");
-    assert_within(time.abs(), Within(0.0, REFERENCE_TIME), "their time");
+    for method in [MESH, SPLIT] {
+        let (positions, time) = deviation(Parameters { capillary_strength: 0.0, ..method });
+        assert_within(positions, REPELLED_DEVIATION, "positions after 20 steps");
+        assert_within(time.abs(), Within(0.0, REFERENCE_TIME), "their time");
+    }
 }
 
 #[test]
 fn attracting_discs_move_as_in_binary64_but_for_the_mesh() {
-    let (positions, time) = deviation(0.89);
+    let (positions, time) = deviation(MESH);
     assert_within(positions, ATTRACTED_DEVIATION, "positions after 20 steps");
     assert_within(time.abs(), Within(0.0, REFERENCE_TIME), "their time");
+}
+
+#[test]
+fn discs_that_attract_each_other_by_the_split_force_move_as_in_binary64() {
+    let (positions, time) = deviation(SPLIT);
+    assert_within(positions, SPLIT_DEVIATION, "positions after 20 steps");
+    assert_within(time.abs(), Within(0.0, SPLIT_REFERENCE_TIME), "their time");
 }

@@ -5,6 +5,7 @@ use meniscus_core::ermak::{StepLimits, largest_force};
 use meniscus_core::parameters::{DISPLACEMENT_RANGE, Noise, Parameters, STEP_RANGE};
 use meniscus_core::torus::Position;
 use meniscus_core::units::{FORCE_UNITS, TIME_UNITS, force_from_units, round_half_even, time_from_units};
+use meniscus_tests::schemes::BOTH;
 use meniscus_tests::states::{at, crowded, lattice, scattered, separation, with_ids};
 use proptest::prelude::*;
 
@@ -70,14 +71,15 @@ proptest! {
 
     #[test]
     fn no_disc_is_moved_by_force_farther_than_allowed(
+        scheme in prop::sample::select(&BOTH[..]),
         seed in any::<u64>(),
         width in 0.02..0.5_f64,
         max_step in between((1e-6, 1.0)),
         max_displacement in between((1e-3, 0.5)),
     ) {
-        let parameters = Parameters {
-            side: 16.0, grid: 16, noise: Noise::None, max_step, max_displacement, ..Parameters::default()
-        };
+        let parameters = scheme.of(Parameters {
+            side: 16.0, grid: 16, noise: Noise::None, max_step, max_displacement, ..Parameters::PAPER
+        });
         let mut engine = Box::new(Engine::<16, 64>::new());
         engine.init(&parameters, with_ids(&crowded(seed, 60, width))).unwrap();
         for _ in 0..5 {
@@ -109,7 +111,7 @@ fn after_a_step(parameters: &Parameters, discs: &[Position]) -> (Box<Engine<32, 
 }
 
 const COLD: Parameters =
-    Parameters { side: 32.0, capillary_strength: 0.0, grid: 32, noise: Noise::None, ..Parameters::DEFAULT };
+    Parameters { side: 32.0, capillary_strength: 0.0, grid: 32, noise: Noise::None, ..Parameters::PAPER };
 
 /// 0.001 R0²/D, rounded down.
 const CEILING: u64 = TIME_UNITS / 1000;
@@ -117,20 +119,26 @@ const CEILING: u64 = TIME_UNITS / 1000;
 #[test]
 fn a_lattice_at_rest_steps_at_the_ceiling() {
     let discs = lattice(8);
-    for capillary_strength in [0.0, 0.89] {
-        let (engine, length) = after_a_step(&Parameters { capillary_strength, ..COLD }, &discs);
-        assert_eq!(length, CEILING);
-        for (id, &disc) in (0..).zip(&discs) {
-            assert_eq!(engine.position(id), Some(disc));
+    for scheme in BOTH {
+        for capillary_strength in [0.0, 0.89] {
+            let parameters = scheme.of(Parameters { capillary_strength, ..COLD });
+            let (engine, length) = after_a_step(&parameters, &discs);
+            assert_eq!(length, CEILING);
+            for (id, &disc) in (0..).zip(&discs) {
+                assert_eq!(engine.position(id), Some(disc));
+            }
         }
     }
 }
 
 #[test]
 fn a_single_disc_steps_at_the_ceiling() {
-    let (engine, length) = after_a_step(&Parameters { capillary_strength: 0.89, ..COLD }, &scattered(1, 1));
-    assert_eq!(length, CEILING);
-    assert_eq!(engine.clock().step, 1);
+    for scheme in BOTH {
+        let parameters = scheme.of(Parameters { capillary_strength: 0.89, ..COLD });
+        let (engine, length) = after_a_step(&parameters, &scattered(1, 1));
+        assert_eq!(length, CEILING);
+        assert_eq!(engine.clock().step, 1);
+    }
 }
 
 #[test]
