@@ -52,8 +52,8 @@ pub struct Forces {
     grid: Grid,
     assignment: Assignment,
     coupling: Coupling,
-    /// Whether all strengths are 1, which is not written then.
-    all_one: bool,
+    /// Whether a strength is not 1; only then are they written.
+    written: bool,
     pairs: PairForce,
     fields: FieldForce,
     /// Length of the table of the near part.
@@ -67,7 +67,7 @@ impl Forces {
             grid: Grid::SMALLEST,
             assignment: Assignment::CloudInCell,
             coupling: Coupling::None,
-            all_one: false,
+            written: false,
             pairs: PairForce::blank(),
             fields: FieldForce::blank(),
             near: 0,
@@ -89,7 +89,7 @@ impl Forces {
             grid,
             assignment: parameters.assignment,
             coupling,
-            all_one,
+            written: !all_one,
             pairs: PairForce::new(parameters),
             fields: FieldForce::new(&parameters.fields, parameters.side),
             near: table_length(near_cutoff(parameters)),
@@ -98,7 +98,7 @@ impl Forces {
 
     /// Whether all discs have strength 1.
     pub(crate) fn strengths_are_equal(&self) -> bool {
-        self.all_one
+        !self.written
     }
 
     /// Whether the memory fits `count` discs and their mesh.
