@@ -33,9 +33,27 @@ enum { GRID = 16, DISCS = 4 };
 
 static const uint32_t X[DISCS] = {0, 0x20000000, 0x40000000, 0xFFFFFFFF};
 static const uint32_t Y[DISCS] = {0, 0x20000000, 0, 0x80000000};
+static const int32_t STRENGTHS[DISCS] = {MENISCUS_STRENGTH_ONE, -MENISCUS_STRENGTH_ONE, 0, 3};
 
 static MeniscusParameters small_box(void) {
     MeniscusParameters parameters = meniscus_default_parameters();
+    parameters.side = 16.0;
+    parameters.grid = GRID;
+    return parameters;
+}
+
+static MeniscusParameters small_split_box(void) {
+    MeniscusParameters parameters = small_box();
+    parameters.method = MENISCUS_METHOD_P3M;
+    parameters.splitting = 0.5;
+    parameters.cutoff = 6.0;
+    parameters.assignment = MENISCUS_ASSIGNMENT_ORDER7;
+    parameters.influence = MENISCUS_INFLUENCE_OPTIMAL;
+    return parameters;
+}
+
+static MeniscusParameters small_paper_box(void) {
+    MeniscusParameters parameters = meniscus_paper_parameters();
     parameters.side = 16.0;
     parameters.grid = GRID;
     return parameters;
@@ -79,7 +97,7 @@ static void sizes_and_creation(void) {
     memory[length] = 0x5A;
     STATUS(OK, meniscus_create(memory, length, GRID, DISCS, &engine));
     MeniscusParameters parameters = small_box();
-    STATUS(OK, meniscus_set(engine, &parameters, NULL, NULL, X, Y, DISCS));
+    STATUS(OK, meniscus_set(engine, &parameters, NULL, NULL, X, Y, NULL, DISCS));
     STATUS(OK, meniscus_step(engine, NULL));
     EXPECT(memory[length] == 0x5A);
     free(memory);
@@ -95,10 +113,10 @@ static void null_pointers(void) {
     int32_t boxes[DISCS];
     int64_t forces[DISCS];
     char text[65];
-    STATUS(NULL_POINTER, meniscus_set(NULL, &parameters, NULL, NULL, X, Y, DISCS));
-    STATUS(NULL_POINTER, meniscus_set(engine, NULL, NULL, NULL, X, Y, DISCS));
-    STATUS(NULL_POINTER, meniscus_set(engine, &parameters, NULL, NULL, NULL, Y, DISCS));
-    STATUS(NULL_POINTER, meniscus_set(engine, &parameters, NULL, NULL, X, NULL, DISCS));
+    STATUS(NULL_POINTER, meniscus_set(NULL, &parameters, NULL, NULL, X, Y, NULL, DISCS));
+    STATUS(NULL_POINTER, meniscus_set(engine, NULL, NULL, NULL, X, Y, NULL, DISCS));
+    STATUS(NULL_POINTER, meniscus_set(engine, &parameters, NULL, NULL, NULL, Y, NULL, DISCS));
+    STATUS(NULL_POINTER, meniscus_set(engine, &parameters, NULL, NULL, X, NULL, NULL, DISCS));
     STATUS(NULL_POINTER, meniscus_step(NULL, NULL));
     STATUS(NULL_POINTER, meniscus_compute_forces(NULL));
     STATUS(NULL_POINTER, meniscus_clock(NULL, &clock));
@@ -112,8 +130,11 @@ static void null_pointers(void) {
     STATUS(NULL_POINTER, meniscus_digest_text(NULL, text));
     STATUS(NULL_POINTER, meniscus_fraction(16.0, 1.0, NULL));
     EXPECT(meniscus_count(NULL) == 0);
+    STATUS(NULL_POINTER, meniscus_set(engine, &parameters, NULL, NULL, X, NULL, STRENGTHS, DISCS));
+    STATUS(MISALIGNED, meniscus_set(engine, &parameters, NULL, NULL, X, Y,
+                                    (const int32_t *)(const void *)((const char *)STRENGTHS + 1), DISCS - 1));
     STATUS(MISALIGNED, meniscus_set(engine, &parameters, NULL, NULL,
-                                    (const uint32_t *)(const void *)((const char *)X + 1), Y, DISCS - 1));
+                                    (const uint32_t *)(const void *)((const char *)X + 1), Y, NULL, DISCS - 1));
     free(memory);
 }
 
@@ -132,12 +153,14 @@ static void before_a_run_is_set(void) {
 }
 
 static MeniscusStatus set(MeniscusEngine *engine, MeniscusParameters parameters) {
-    return meniscus_set(engine, &parameters, NULL, NULL, X, Y, DISCS);
+    return meniscus_set(engine, &parameters, NULL, NULL, X, Y, NULL, DISCS);
 }
 
-#define REFUSED(expected, field, value)                 \
+#define REFUSED(expected, field, value) REFUSED_IN(small_box(), expected, field, value)
+
+#define REFUSED_IN(accepted, expected, field, value)    \
     do {                                                \
-        MeniscusParameters parameters = small_box();    \
+        MeniscusParameters parameters = (accepted);     \
         STATUS(OK, set(engine, parameters));            \
         parameters.field = (value);                     \
         STATUS(expected, set(engine, parameters));      \
@@ -158,12 +181,72 @@ static void parameters_out_of_range(void) {
     REFUSED(MAX_STEP, max_step, 2.0);
     REFUSED(MAX_DISPLACEMENT, max_displacement, 1.0);
     REFUSED(SEED, seed, (uint64_t)1 << 63);
-    REFUSED(ASSIGNMENT, assignment, 0);
+    REFUSED(METHOD, method, 0);
+    REFUSED(METHOD, method, 3);
+    REFUSED(ASSIGNMENT, assignment, 1);
+    REFUSED(ASSIGNMENT, assignment, 8);
     REFUSED(INFLUENCE, influence, 0);
+    REFUSED(INFLUENCE, influence, 4);
     REFUSED(GRADIENT, gradient, 3);
     REFUSED(NOISE, noise, 4);
     REFUSED(REPULSION, repulsion, 2);
+    REFUSED(FIELDS, uniform_force_x, (double)INFINITY);
+    REFUSED(FIELDS, uniform_force_y, -1.1e8);
+    REFUSED(FIELDS, trap_stiffness, -1.0);
+    REFUSED(FIELDS, trap_stiffness, 1.3e7);
+    REFUSED(FIELDS, trap_center_x, 16.1);
+    REFUSED(FIELDS, trap_center_y, -0.1);
     REFUSED(GRID_MISMATCH, grid, 32);
+    free(memory);
+}
+
+static void parameters_that_do_not_fit_the_method(void) {
+    void *memory = memory_for(GRID, DISCS);
+    MeniscusEngine *engine = engine_for(memory);
+    REFUSED_IN(small_split_box(), SPLITTING, splitting, 0.0);
+    REFUSED_IN(small_split_box(), SPLITTING_TOO_LARGE, splitting, 0.71);
+    REFUSED_IN(small_split_box(), CUTOFF, cutoff, 0.5);
+    REFUSED_IN(small_split_box(), CUTOFF_TOO_LARGE, cutoff, 8.0);
+    REFUSED_IN(small_split_box(), INFLUENCE_OF_METHOD, influence, MENISCUS_INFLUENCE_PAPER);
+    REFUSED_IN(small_split_box(), GRADIENT_OF_METHOD, gradient, MENISCUS_GRADIENT_DIFFERENCE2);
+    REFUSED_IN(small_paper_box(), INFLUENCE_OF_METHOD, influence, MENISCUS_INFLUENCE_OPTIMAL);
+    /* The mesh alone looks at neither splitting nor cut-off. */
+    MeniscusParameters parameters = small_paper_box();
+    parameters.splitting = parameters.cutoff = (double)NAN;
+    STATUS(OK, set(engine, parameters));
+    for (uint32_t order = 2; order <= 7; order++) {
+        parameters.assignment = order;
+        STATUS(OK, set(engine, parameters));
+        STATUS(OK, meniscus_step(engine, NULL));
+    }
+    free(memory);
+}
+
+static void strengths(void) {
+    void *memory = memory_for(GRID, DISCS);
+    MeniscusEngine *engine = engine_for(memory);
+    MeniscusParameters parameters = small_split_box();
+    MeniscusDigest found, equal;
+    int32_t strengths[DISCS] = {MENISCUS_STRENGTH_ONE, MENISCUS_STRENGTH_ONE, MENISCUS_STRENGTH_ONE,
+                                MENISCUS_STRENGTH_ONE};
+    STATUS(OK, set(engine, parameters));
+    STATUS(OK, meniscus_digest(engine, &equal));
+    STATUS(OK, meniscus_set(engine, &parameters, NULL, NULL, X, Y, strengths, DISCS));
+    STATUS(OK, meniscus_digest(engine, &found));
+    EXPECT(found.length == 32 + 8 * DISCS);
+    EXPECT(memcmp(equal.sha256, found.sha256, sizeof equal.sha256) == 0);
+    STATUS(OK, meniscus_set(engine, &parameters, NULL, NULL, X, Y, STRENGTHS, DISCS));
+    STATUS(OK, meniscus_step(engine, NULL));
+    STATUS(OK, meniscus_digest(engine, &found));
+    EXPECT(found.length == 32 + 12 * DISCS + 12);
+    strengths[2] = -1001 * MENISCUS_STRENGTH_ONE;
+    STATUS(STRENGTH, meniscus_set(engine, &parameters, NULL, NULL, X, Y, strengths, DISCS));
+    EXPECT(meniscus_count(engine) == 0);
+    strengths[2] = 10 * MENISCUS_STRENGTH_ONE;
+    parameters.capillary_strength = 10.0;
+    STATUS(OK, meniscus_set(engine, &parameters, NULL, NULL, X, Y, strengths, DISCS));
+    parameters.capillary_strength = 10.1;
+    STATUS(STRENGTH, meniscus_set(engine, &parameters, NULL, NULL, X, Y, strengths, DISCS));
     free(memory);
 }
 
@@ -174,10 +257,10 @@ static void discs_that_do_not_fit(void) {
     const uint32_t twice[DISCS] = {0, 1, 1, 2}, beyond[DISCS] = {0, 1, 2, 4};
     const uint32_t many[DISCS + 1] = {0};
     uint32_t words[DISCS];
-    STATUS(NO_PARTICLES, meniscus_set(engine, &parameters, NULL, NULL, X, Y, 0));
-    STATUS(TOO_MANY_PARTICLES, meniscus_set(engine, &parameters, NULL, NULL, many, many, DISCS + 1));
-    STATUS(ID, meniscus_set(engine, &parameters, NULL, twice, X, Y, DISCS));
-    STATUS(ID, meniscus_set(engine, &parameters, NULL, beyond, X, Y, DISCS));
+    STATUS(NO_PARTICLES, meniscus_set(engine, &parameters, NULL, NULL, X, Y, NULL, 0));
+    STATUS(TOO_MANY_PARTICLES, meniscus_set(engine, &parameters, NULL, NULL, many, many, NULL, DISCS + 1));
+    STATUS(ID, meniscus_set(engine, &parameters, NULL, twice, X, Y, NULL, DISCS));
+    STATUS(ID, meniscus_set(engine, &parameters, NULL, beyond, X, Y, NULL, DISCS));
     EXPECT(meniscus_count(engine) == 0);
     STATUS(OK, set(engine, parameters));
     STATUS(ARRAY_TOO_SHORT, meniscus_positions(engine, words, words, DISCS - 1));
@@ -212,7 +295,7 @@ static void steps_that_are_refused(void) {
     MeniscusParameters parameters = small_box();
     MeniscusClock late = {UINT64_MAX, 0}, found;
     MeniscusDigest before, after;
-    STATUS(OK, meniscus_set(engine, &parameters, &late, NULL, X, Y, DISCS));
+    STATUS(OK, meniscus_set(engine, &parameters, &late, NULL, X, Y, NULL, DISCS));
     STATUS(OK, meniscus_digest(engine, &before));
     STATUS(TIME_OVERFLOW, meniscus_step(engine, NULL));
     STATUS(OK, meniscus_digest(engine, &after));
@@ -237,7 +320,7 @@ static void a_restart_goes_on_as_if_nothing_had_happened(void) {
         if (step % 10 == 0) {
             STATUS(OK, meniscus_clock(parts, &clock));
             STATUS(OK, meniscus_positions(parts, x, y, DISCS));
-            STATUS(OK, meniscus_set(parts, &parameters, &clock, NULL, x, y, DISCS));
+            STATUS(OK, meniscus_set(parts, &parameters, &clock, NULL, x, y, NULL, DISCS));
         }
     }
     STATUS(OK, meniscus_digest(whole, &expected));
@@ -259,6 +342,8 @@ int main(int count, char **arguments) {
     null_pointers();
     before_a_run_is_set();
     parameters_out_of_range();
+    parameters_that_do_not_fit_the_method();
+    strengths();
     discs_that_do_not_fit();
     coordinates();
     another_rounding_is_refused();

@@ -54,7 +54,7 @@ int main(void) {
             return fail("fraction", status);
         }
     }
-    status = meniscus_set(engine, &parameters, NULL, ids, x, y, DISCS);
+    status = meniscus_set(engine, &parameters, NULL, ids, x, y, NULL, DISCS);
     if (status != MENISCUS_STATUS_OK) {
         return fail("set", status);
     }

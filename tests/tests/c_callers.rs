@@ -8,8 +8,10 @@
 #![expect(clippy::panic, reason = "a helper of a test fails the test by panicking")]
 
 use meniscus::engine::Engine;
-use meniscus_core::dynamics::Clock;
-use meniscus_core::parameters::{Noise, Parameters};
+use meniscus_core::assignment::DISC;
+use meniscus_core::dynamics::{Clock, Disc};
+use meniscus_core::fields::Fields;
+use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise, Parameters};
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::force_from_units;
 use std::path::{Path, PathBuf};
@@ -115,6 +117,40 @@ fn collapse_on_the_host() -> Vec<String> {
     lines
 }
 
+/// What `mixture.c` does, on the host's engine: its lines.
+fn mixture_on_the_host() -> Vec<String> {
+    let parameters = Parameters {
+        side: 40.0,
+        grid: 32,
+        capillary_strength: 20.0,
+        capillary_length: f64::INFINITY,
+        method: Method::P3m,
+        splitting: 0.4,
+        cutoff: 7.5,
+        assignment: Assignment::Order5,
+        influence: Influence::Optimal,
+        gradient: Gradient::Spectral,
+        fields: Fields { uniform_force: [-3.0, 0.5], trap_stiffness: 0.25, trap_center: [0.0, 30.0] },
+        noise: Noise::Gaussian,
+        seed: 11,
+        ..Parameters::default()
+    };
+    let torus = Torus::new(parameters.side).unwrap();
+    let at = |place: u32| torus.fraction(3.0 * f64::from(place)).unwrap();
+    let discs = (0..25).map(|id| Disc {
+        id,
+        position: Position { x: at(id % 5), y: at(id / 5) },
+        strength: if id % 3 == 0 { -(DISC as i32) } else { DISC as i32 / 2 },
+    });
+    let mut engine = Engine::with_ids(&parameters, Clock::START, discs).unwrap();
+    let last = (0..200).map(|_| engine.step().unwrap()).last().unwrap();
+    let digest = engine.state().digest();
+    vec![
+        format!("{} {digest}", digest.length),
+        format!("{} {} {} {}", last.clock.step, last.clock.time, last.length, last.largest_force),
+    ]
+}
+
 #[test]
 fn the_committed_header_is_that_of_the_sources() {
     let generated = generated_header();
@@ -141,6 +177,13 @@ fn a_c_program_gets_the_same_bits() {
 }
 
 #[test]
+fn a_c_program_gets_the_same_bits_of_the_split_force_with_unequal_strengths_in_a_trap() {
+    let output = run(&mut Command::new(c_program("mixture", "bits")));
+    let found = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(found.lines().collect::<Vec<_>>(), mixture_on_the_host());
+}
+
+#[test]
 fn what_a_caller_does_wrong_is_answered_with_a_status() {
     run(&mut Command::new(c_program("checks", "errors")));
 }
@@ -153,7 +196,7 @@ fn every_status_has_a_message_of_its_own() {
         name.starts_with("MENISCUS_STATUS_").then(|| number.trim_end_matches(',').to_owned())
     };
     let numbers: Vec<String> = header.lines().filter_map(status).collect();
-    assert!(numbers.len() > 30);
+    assert!(numbers.len() > 40);
     let program = c_program("checks", "messages");
     let output = run(Command::new(program).args(&numbers).arg("-1"));
     let mut messages: Vec<&str> = std::str::from_utf8(&output.stdout).unwrap().lines().collect();

@@ -9,6 +9,11 @@
 #include <stdint.h>
 
 /**
+ * The capillary strength 1 of a disc, in the unit of meniscus_set.
+ */
+#define MENISCUS_STRENGTH_ONE 1048576
+
+/**
  * What became of a call.
  */
 typedef enum {
@@ -105,6 +110,39 @@ typedef enum {
    */
   MENISCUS_STATUS_COORDINATE = 32,
   /**
+   * The method is no MeniscusMethod.
+   */
+  MENISCUS_STATUS_METHOD = 33,
+  /**
+   * The splitting is not 1e-5 to 8 per R0.
+   */
+  MENISCUS_STATUS_SPLITTING = 34,
+  /**
+   * The splitting exceeds 0.7 over the mesh spacing.
+   */
+  MENISCUS_STATUS_SPLITTING_TOO_LARGE = 35,
+  /**
+   * The cut-off of the near part is not a number of at least 1 R0.
+   */
+  MENISCUS_STATUS_CUTOFF = 36,
+  /**
+   * The cut-off of the near part is not below half the side.
+   */
+  MENISCUS_STATUS_CUTOFF_TOO_LARGE = 37,
+  /**
+   * The influence function does not belong to the method: the optimal one to P3m, the others to the particle mesh.
+   */
+  MENISCUS_STATUS_INFLUENCE_OF_METHOD = 38,
+  /**
+   * The gradient does not belong to the method: P3m takes the spectral one.
+   */
+  MENISCUS_STATUS_GRADIENT_OF_METHOD = 39,
+  /**
+   * An external field is not finite, exceeds 1e8 kBT/R0 somewhere, or is a trap of negative stiffness or with a centre
+   * outside the box.
+   */
+  MENISCUS_STATUS_FIELDS = 40,
+  /**
    * The program flushes subnormal numbers to zero, which would change the bits.
    */
   MENISCUS_STATUS_SUBNORMALS_FLUSHED = 48,
@@ -129,11 +167,15 @@ typedef enum {
    */
   MENISCUS_STATUS_ID = 53,
   /**
+   * A strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT.
+   */
+  MENISCUS_STATUS_STRENGTH = 54,
+  /**
    * There are no discs: no run was set, or setting it failed.
    */
   MENISCUS_STATUS_NOT_INITIALISED = 64,
   /**
-   * A mesh node would hold more than 4095 discs.
+   * A mesh node would hold more than 4095 discs, or strengths of more than 2047.
    */
   MENISCUS_STATUS_CROWDED = 65,
   /**
@@ -155,6 +197,21 @@ typedef enum {
 } MeniscusStatus;
 
 /**
+ * How the capillary force is summed.
+ */
+typedef enum {
+  /**
+   * All of it on the mesh.
+   */
+  MENISCUS_METHOD_PARTICLE_MESH = 1,
+  /**
+   * What is smooth on the mesh, with the optimal influence function and the spectral gradient, the rest pair by
+   * pair up to a cut-off.
+   */
+  MENISCUS_METHOD_P3M = 2,
+} MeniscusMethod;
+
+/**
  * How a disc's mass is spread over mesh nodes, and the field gathered from them.
  */
 typedef enum {
@@ -166,6 +223,22 @@ typedef enum {
    * Order 3: quadratic, 9 nodes.
    */
   MENISCUS_ASSIGNMENT_TRIANGULAR_SHAPED_CLOUD = 3,
+  /**
+   * Order 4: piecewise cubic, 16 nodes.
+   */
+  MENISCUS_ASSIGNMENT_ORDER4 = 4,
+  /**
+   * Order 5, 25 nodes.
+   */
+  MENISCUS_ASSIGNMENT_ORDER5 = 5,
+  /**
+   * Order 6, 36 nodes.
+   */
+  MENISCUS_ASSIGNMENT_ORDER6 = 6,
+  /**
+   * Order 7, 49 nodes.
+   */
+  MENISCUS_ASSIGNMENT_ORDER7 = 7,
 } MeniscusAssignment;
 
 /**
@@ -180,6 +253,10 @@ typedef enum {
    * The continuum's, 1/(k^2 + kappa^2).
    */
   MENISCUS_INFLUENCE_CONTINUUM = 2,
+  /**
+   * The one that makes the error of the far part least, for MeniscusMethod P3m only.
+   */
+  MENISCUS_INFLUENCE_OPTIMAL = 3,
 } MeniscusInfluence;
 
 /**
@@ -241,6 +318,34 @@ typedef struct {
    */
   double capillary_length;
   /**
+   * Splitting of P3m, 1/R0; 1e-5 to 8, and at most 0.7 over the mesh spacing. Not looked at otherwise.
+   */
+  double splitting;
+  /**
+   * Cut-off of the near part of P3m, R0; at least 1, below half the side. Not looked at otherwise.
+   */
+  double cutoff;
+  /**
+   * Uniform external force along x, kBT/R0. No external field exerts more than 1e8 along an axis anywhere.
+   */
+  double uniform_force_x;
+  /**
+   * Uniform external force along y, kBT/R0.
+   */
+  double uniform_force_y;
+  /**
+   * Stiffness of a harmonic trap that draws every disc, kBT/R0^2; 0 for none.
+   */
+  double trap_stiffness;
+  /**
+   * x of the trap's centre, R0; 0 to side.
+   */
+  double trap_center_x;
+  /**
+   * y of the trap's centre, R0; 0 to side.
+   */
+  double trap_center_y;
+  /**
    * Ceiling of the time step, R0^2/D; 2^-40 to 1.
    */
   double max_step;
@@ -256,6 +361,10 @@ typedef struct {
    * Nodes along a side of the mesh: a power of two, 16 to 4096.
    */
   uint32_t grid;
+  /**
+   * How the capillary force is summed: a MeniscusMethod.
+   */
+  uint32_t method;
   /**
    * Mass assignment: a MeniscusAssignment.
    */
@@ -360,13 +469,15 @@ MeniscusStatus meniscus_create(void *memory,
  * Starts a run of `count` discs, also where another run was before.
  *
  * `x` and `y` are fractions of the side, unit side / 2^32 (see meniscus_fraction). `ids` are 0 to count - 1, each
- * once, in any order; null if the discs are given in the order of their ids. `clock` is where the run stands: null
+ * once, in any order; null if the discs are given in the order of their ids. `strengths` are their capillary strengths,
+ * unit 2^-20: discs attract each other with the capillary strength of the parameters times both of theirs, and repel
+ * each other if the signs differ; null if all of them are 1, MENISCUS_STRENGTH_ONE. `clock` is where the run stands: null
  * for the start, the clock of a state reached before to go on as if the run had never stopped. Crossings and forces
  * are 0 then. If anything is refused, the engine has no discs.
  *
  * # Safety
  * `engine` is null or from meniscus_create and used by nobody else meanwhile. Each other pointer is null or points
- * to what its type says, `ids`, `x` and `y` to `count` of them, outside the engine's memory.
+ * to what its type says, `ids`, `x`, `y` and `strengths` to `count` of them, outside the engine's memory.
  */
 MeniscusStatus meniscus_set(MeniscusEngine *engine,
                             const MeniscusParameters *parameters,
@@ -374,6 +485,7 @@ MeniscusStatus meniscus_set(MeniscusEngine *engine,
                             const uint32_t *ids,
                             const uint32_t *x,
                             const uint32_t *y,
+                            const int32_t *strengths,
                             size_t count);
 
 /**
@@ -489,6 +601,11 @@ const char *meniscus_status_message(int32_t status);
  * Discs of the paper's Table I in a box of 64 R0 on a mesh of 64 nodes a side.
  */
 MeniscusParameters meniscus_default_parameters(void);
+
+/**
+ * The same with the force and the mesh of the paper: all of the capillary force on the mesh.
+ */
+MeniscusParameters meniscus_paper_parameters(void);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -12,7 +12,7 @@
 //! meniscus_create(memory, length, 64, 2, &engine);
 //! MeniscusParameters parameters = meniscus_default_parameters();
 //! uint32_t x[2] = {0, 0x10000000}, y[2] = {0, 0};
-//! MeniscusStatus status = meniscus_set(engine, &parameters, NULL, NULL, x, y, 2);
+//! MeniscusStatus status = meniscus_set(engine, &parameters, NULL, NULL, x, y, NULL, 2);
 //! if (status == MENISCUS_STATUS_OK) status = meniscus_step(engine, NULL);
 //! puts(meniscus_status_message(status));
 //! ```
@@ -35,14 +35,15 @@ mod values;
 pub use layout::MeniscusEngine;
 pub use status::{MeniscusStatus, meniscus_status_message};
 pub use values::{
-    MeniscusAssignment, MeniscusClock, MeniscusDigest, MeniscusGradient, MeniscusInfluence, MeniscusNoise,
-    MeniscusParameters, MeniscusStep, meniscus_default_parameters,
+    MENISCUS_STRENGTH_ONE, MeniscusAssignment, MeniscusClock, MeniscusDigest, MeniscusGradient,
+    MeniscusInfluence, MeniscusMethod, MeniscusNoise, MeniscusParameters, MeniscusStep,
+    meniscus_default_parameters, meniscus_paper_parameters,
 };
 
 use core::ffi::{c_char, c_void};
 use core::slice;
 use layout::{Element, Layout, Span};
-use meniscus_core::dynamics::{Clock, Dynamics};
+use meniscus_core::dynamics::{Clock, Disc, Dynamics};
 use meniscus_core::grid::Grid;
 use meniscus_core::parameters::Parameters;
 use meniscus_core::torus::{Fraction, Position, Torus};
@@ -95,6 +96,15 @@ unsafe fn array<'a, T>(source: *const T, count: usize) -> Result<&'a [T], Menisc
     Ok(unsafe { slice::from_raw_parts(source, count) })
 }
 
+/// The same, or nothing if `source` is null.
+///
+/// # Safety
+/// That of [`array`].
+unsafe fn array_or_none<'a, T>(source: *const T, count: usize) -> Result<Option<&'a [T]>, MeniscusStatus> {
+    // SAFETY: as promised.
+    if source.is_null() { Ok(None) } else { unsafe { array(source, count) }.map(Some) }
+}
+
 /// Bytes of memory that an engine takes, for a mesh of `grid` nodes a side (a power of two from 16 to 4096) and room
 /// for `capacity` discs (1 to 524288); 0 if one of them is out of range.
 #[unsafe(no_mangle)]
@@ -137,13 +147,15 @@ pub unsafe extern "C" fn meniscus_create(
 /// Starts a run of `count` discs, also where another run was before.
 ///
 /// `x` and `y` are fractions of the side, unit side / 2^32 (see meniscus_fraction). `ids` are 0 to count - 1, each
-/// once, in any order; null if the discs are given in the order of their ids. `clock` is where the run stands: null
+/// once, in any order; null if the discs are given in the order of their ids. `strengths` are their capillary strengths,
+/// unit 2^-20: discs attract each other with the capillary strength of the parameters times both of theirs, and repel
+/// each other if the signs differ; null if all of them are 1, MENISCUS_STRENGTH_ONE. `clock` is where the run stands: null
 /// for the start, the clock of a state reached before to go on as if the run had never stopped. Crossings and forces
 /// are 0 then. If anything is refused, the engine has no discs.
 ///
 /// # Safety
 /// `engine` is null or from meniscus_create and used by nobody else meanwhile. Each other pointer is null or points
-/// to what its type says, `ids`, `x` and `y` to `count` of them, outside the engine's memory.
+/// to what its type says, `ids`, `x`, `y` and `strengths` to `count` of them, outside the engine's memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn meniscus_set(
     engine: *mut MeniscusEngine,
@@ -152,10 +164,21 @@ pub unsafe extern "C" fn meniscus_set(
     ids: *const u32,
     x: *const u32,
     y: *const u32,
+    strengths: *const i32,
     count: usize,
 ) -> MeniscusStatus {
+    let discs = Discs { ids, x, y, strengths, count };
     // SAFETY: all pointers as promised.
-    status_of(unsafe { set(engine, parameters, clock, (ids, x, y), count) })
+    status_of(unsafe { set(engine, parameters, clock, &discs) })
+}
+
+/// The discs as the caller has them.
+struct Discs {
+    ids: *const u32,
+    x: *const u32,
+    y: *const u32,
+    strengths: *const i32,
+    count: usize,
 }
 
 /// [`meniscus_set`].
@@ -166,9 +189,9 @@ unsafe fn set(
     engine: *mut MeniscusEngine,
     parameters: *const MeniscusParameters,
     clock: *const MeniscusClock,
-    (ids, x, y): (*const u32, *const u32, *const u32),
-    count: usize,
+    discs: &Discs,
 ) -> Result<(), MeniscusStatus> {
+    let count = discs.count;
     check(engine)?;
     // SAFETY: an engine of meniscus_create, used by nobody else.
     let (dynamics, layout, mut memory) = unsafe { layout::parts(engine) };
@@ -194,13 +217,20 @@ unsafe fn set(
         unsafe { *clock }.into()
     };
     // SAFETY: `count` values each as promised, few enough since they fit the engine.
-    let (x, y) = unsafe { (array(x, count)?, array(y, count)?) };
+    let (x, y) = unsafe { (array(discs.x, count)?, array(discs.y, count)?) };
     // SAFETY: null, or the same.
-    let ids = if ids.is_null() { None } else { Some(unsafe { array(ids, count) }?) };
+    let (ids, strengths) =
+        unsafe { (array_or_none(discs.ids, count)?, array_or_none(discs.strengths, count)?) };
     let positions = x.iter().zip(y).map(|(&x, &y)| Position::from_bits(x, y));
     let discs = (0..).zip(positions).map(|(place, position)| {
-        let id = ids.and_then(|ids| ids.get(place as usize).copied());
-        (id.unwrap_or(place), position)
+        let at = place as usize;
+        Disc {
+            id: ids.and_then(|ids| ids.get(at).copied()).unwrap_or(place),
+            position,
+            strength: strengths
+                .and_then(|strengths| strengths.get(at).copied())
+                .unwrap_or(MENISCUS_STRENGTH_ONE),
+        }
     });
     memory.force_x.fill(0);
     memory.force_y.fill(0);

@@ -56,6 +56,23 @@ pub enum MeniscusStatus {
     Repulsion = 31,
     /// A coordinate is not in 0 <= coordinate < side.
     Coordinate = 32,
+    /// The method is no MeniscusMethod.
+    Method = 33,
+    /// The splitting is not 1e-5 to 8 per R0.
+    Splitting = 34,
+    /// The splitting exceeds 0.7 over the mesh spacing.
+    SplittingTooLarge = 35,
+    /// The cut-off of the near part is not a number of at least 1 R0.
+    Cutoff = 36,
+    /// The cut-off of the near part is not below half the side.
+    CutoffTooLarge = 37,
+    /// The influence function does not belong to the method: the optimal one to P3m, the others to the particle mesh.
+    InfluenceOfMethod = 38,
+    /// The gradient does not belong to the method: P3m takes the spectral one.
+    GradientOfMethod = 39,
+    /// An external field is not finite, exceeds 1e8 kBT/R0 somewhere, or is a trap of negative stiffness or with a centre
+    /// outside the box.
+    Fields = 40,
     /// The program flushes subnormal numbers to zero, which would change the bits.
     SubnormalsFlushed = 48,
     /// The program does not round to nearest, which would change the bits.
@@ -68,9 +85,11 @@ pub enum MeniscusStatus {
     TooManyParticles = 52,
     /// The ids are not 0 to count - 1, each once.
     Id = 53,
+    /// A strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT.
+    Strength = 54,
     /// There are no discs: no run was set, or setting it failed.
     NotInitialised = 64,
-    /// A mesh node would hold more than 4095 discs.
+    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047.
     Crowded = 65,
     /// The largest force allows no step of even 2^-40 R0^2/D.
     StepTooShort = 66,
@@ -85,7 +104,7 @@ pub enum MeniscusStatus {
 use MeniscusStatus as S;
 
 /// What each status means.
-const MESSAGES: [(MeniscusStatus, &CStr); 35] = [
+const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
     (S::Ok, c"done"),
     (S::NullPointer, c"a pointer is null"),
     (S::Misaligned, c"a pointer is not aligned for what it points to"),
@@ -109,14 +128,29 @@ const MESSAGES: [(MeniscusStatus, &CStr); 35] = [
     (S::Noise, c"the noise is no MeniscusNoise"),
     (S::Repulsion, c"the repulsion is neither 0 nor 1"),
     (S::Coordinate, c"a coordinate is not in 0 <= coordinate < side"),
+    (S::Method, c"the method is no MeniscusMethod"),
+    (S::Splitting, c"the splitting is not 1e-5 to 8 per R0"),
+    (S::SplittingTooLarge, c"the splitting exceeds 0.7 over the mesh spacing"),
+    (S::Cutoff, c"the cut-off of the near part is not a number of at least 1 R0"),
+    (S::CutoffTooLarge, c"the cut-off of the near part is not below half the side"),
+    (
+        S::InfluenceOfMethod,
+        c"the influence function does not belong to the method: the optimal one to P3m, the others to the particle mesh",
+    ),
+    (S::GradientOfMethod, c"the gradient does not belong to the method: P3m takes the spectral one"),
+    (
+        S::Fields,
+        c"an external field is not finite, exceeds 1e8 kBT/R0 somewhere, or is a trap of negative stiffness or with a centre outside the box",
+    ),
     (S::SubnormalsFlushed, c"the program flushes subnormal numbers to zero, which would change the bits"),
     (S::Rounding, c"the program does not round to nearest, which would change the bits"),
     (S::GridMismatch, c"the parameters ask for another mesh than the engine was created for"),
     (S::NoParticles, c"no disc was given"),
     (S::TooManyParticles, c"more discs were given than the engine was created for"),
     (S::Id, c"the ids are not 0 to count - 1, each once"),
+    (S::Strength, c"a strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT"),
     (S::NotInitialised, c"there are no discs: no run was set, or setting it failed"),
-    (S::Crowded, c"a mesh node would hold more than 4095 discs"),
+    (S::Crowded, c"a mesh node would hold more than 4095 discs, or strengths of more than 2047"),
     (S::StepTooShort, c"the largest force allows no step of even 2^-40 R0^2/D"),
     (S::TimeOverflow, c"time would exceed 2^24 R0^2/D, or the number of steps 2^64 - 1"),
     (S::HalfBox, c"a disc would move by half a box or more"),
@@ -141,13 +175,13 @@ impl From<ParameterError> for MeniscusStatus {
             ParameterError::Grid => Self::Grid,
             ParameterError::GridTooCoarse => Self::GridTooCoarse,
             ParameterError::GridTooFine => Self::GridTooFine,
-            ParameterError::Splitting
-            | ParameterError::SplittingTooLarge
-            | ParameterError::Cutoff
-            | ParameterError::CutoffTooLarge
-            | ParameterError::Influence
-            | ParameterError::Gradient
-            | ParameterError::Fields => Self::Grid,
+            ParameterError::Splitting => Self::Splitting,
+            ParameterError::SplittingTooLarge => Self::SplittingTooLarge,
+            ParameterError::Cutoff => Self::Cutoff,
+            ParameterError::CutoffTooLarge => Self::CutoffTooLarge,
+            ParameterError::Influence => Self::InfluenceOfMethod,
+            ParameterError::Gradient => Self::GradientOfMethod,
+            ParameterError::Fields => Self::Fields,
             ParameterError::MaxStep => Self::MaxStep,
             ParameterError::MaxDisplacement => Self::MaxDisplacement,
             ParameterError::Seed => Self::Seed,
@@ -165,7 +199,7 @@ impl From<InitError> for MeniscusStatus {
             InitError::NoParticles => Self::NoParticles,
             InitError::TooManyParticles { .. } => Self::TooManyParticles,
             InitError::Id { .. } => Self::Id,
-            InitError::Strength { .. } => Self::CapillaryStrength,
+            InitError::Strength { .. } => Self::Strength,
             InitError::Memory => Self::Memory,
         }
     }

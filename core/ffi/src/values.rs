@@ -2,9 +2,27 @@
 
 use crate::status::MeniscusStatus;
 use core::ffi::c_char;
+use meniscus_core::assignment::DISC;
 use meniscus_core::digest::Digest;
 use meniscus_core::dynamics::{Clock, Step};
-use meniscus_core::parameters::{Assignment, Gradient, Influence, Noise, Parameters};
+use meniscus_core::fields::Fields;
+use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise, Parameters};
+
+/// The capillary strength 1 of a disc, in the unit of meniscus_set.
+pub const MENISCUS_STRENGTH_ONE: i32 = 1048576;
+
+const _: () = assert!(MENISCUS_STRENGTH_ONE as u32 == DISC);
+
+/// How the capillary force is summed.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeniscusMethod {
+    /// All of it on the mesh.
+    ParticleMesh = 1,
+    /// What is smooth on the mesh, with the optimal influence function and the spectral gradient, the rest pair by
+    /// pair up to a cut-off.
+    P3m = 2,
+}
 
 /// How a disc's mass is spread over mesh nodes, and the field gathered from them.
 #[repr(C)]
@@ -14,6 +32,14 @@ pub enum MeniscusAssignment {
     CloudInCell = 2,
     /// Order 3: quadratic, 9 nodes.
     TriangularShapedCloud = 3,
+    /// Order 4: piecewise cubic, 16 nodes.
+    Order4 = 4,
+    /// Order 5, 25 nodes.
+    Order5 = 5,
+    /// Order 6, 36 nodes.
+    Order6 = 6,
+    /// Order 7, 49 nodes.
+    Order7 = 7,
 }
 
 /// Green's function of the interface on the mesh.
@@ -24,6 +50,8 @@ pub enum MeniscusInfluence {
     Paper = 1,
     /// The continuum's, 1/(k^2 + kappa^2).
     Continuum = 2,
+    /// The one that makes the error of the far part least, for MeniscusMethod P3m only.
+    Optimal = 3,
 }
 
 /// How the gradient of the interface is taken.
@@ -61,6 +89,20 @@ pub struct MeniscusParameters {
     pub capillary_strength: f64,
     /// Capillary length, R0; at least 0.01, INFINITY allowed.
     pub capillary_length: f64,
+    /// Splitting of P3m, 1/R0; 1e-5 to 8, and at most 0.7 over the mesh spacing. Not looked at otherwise.
+    pub splitting: f64,
+    /// Cut-off of the near part of P3m, R0; at least 1, below half the side. Not looked at otherwise.
+    pub cutoff: f64,
+    /// Uniform external force along x, kBT/R0. No external field exerts more than 1e8 along an axis anywhere.
+    pub uniform_force_x: f64,
+    /// Uniform external force along y, kBT/R0.
+    pub uniform_force_y: f64,
+    /// Stiffness of a harmonic trap that draws every disc, kBT/R0^2; 0 for none.
+    pub trap_stiffness: f64,
+    /// x of the trap's centre, R0; 0 to side.
+    pub trap_center_x: f64,
+    /// y of the trap's centre, R0; 0 to side.
+    pub trap_center_y: f64,
     /// Ceiling of the time step, R0^2/D; 2^-40 to 1.
     pub max_step: f64,
     /// Largest displacement by force in a step, R0; 2^-40 to 0.5.
@@ -69,6 +111,8 @@ pub struct MeniscusParameters {
     pub seed: u64,
     /// Nodes along a side of the mesh: a power of two, 16 to 4096.
     pub grid: u32,
+    /// How the capillary force is summed: a MeniscusMethod.
+    pub method: u32,
     /// Mass assignment: a MeniscusAssignment.
     pub assignment: u32,
     /// Influence function: a MeniscusInfluence.
@@ -87,19 +131,33 @@ impl From<&Parameters> for MeniscusParameters {
             side: parameters.side,
             capillary_strength: parameters.capillary_strength,
             capillary_length: parameters.capillary_length,
+            splitting: parameters.splitting,
+            cutoff: parameters.cutoff,
+            uniform_force_x: parameters.fields.uniform_force[0],
+            uniform_force_y: parameters.fields.uniform_force[1],
+            trap_stiffness: parameters.fields.trap_stiffness,
+            trap_center_x: parameters.fields.trap_center[0],
+            trap_center_y: parameters.fields.trap_center[1],
             max_step: parameters.max_step,
             max_displacement: parameters.max_displacement,
             seed: parameters.seed,
             grid: parameters.grid as u32,
+            method: match parameters.method {
+                Method::ParticleMesh => MeniscusMethod::ParticleMesh as u32,
+                Method::P3m => MeniscusMethod::P3m as u32,
+            },
             assignment: match parameters.assignment {
                 Assignment::CloudInCell => MeniscusAssignment::CloudInCell as u32,
                 Assignment::TriangularShapedCloud => MeniscusAssignment::TriangularShapedCloud as u32,
-                other => other.order() as u32,
+                Assignment::Order4 => MeniscusAssignment::Order4 as u32,
+                Assignment::Order5 => MeniscusAssignment::Order5 as u32,
+                Assignment::Order6 => MeniscusAssignment::Order6 as u32,
+                Assignment::Order7 => MeniscusAssignment::Order7 as u32,
             },
             influence: match parameters.influence {
                 Influence::Paper => MeniscusInfluence::Paper as u32,
                 Influence::Continuum => MeniscusInfluence::Continuum as u32,
-                Influence::Optimal => 3,
+                Influence::Optimal => MeniscusInfluence::Optimal as u32,
             },
             gradient: match parameters.gradient {
                 Gradient::Spectral => MeniscusGradient::Spectral as u32,
@@ -130,15 +188,27 @@ impl TryFrom<&MeniscusParameters> for Parameters {
                 1 => true,
                 _ => return Err(MeniscusStatus::Repulsion),
             },
+            method: match parameters.method {
+                1 => Method::ParticleMesh,
+                2 => Method::P3m,
+                _ => return Err(MeniscusStatus::Method),
+            },
+            splitting: parameters.splitting,
+            cutoff: parameters.cutoff,
             grid: usize::try_from(parameters.grid).map_err(|_| MeniscusStatus::Grid)?,
             assignment: match parameters.assignment {
                 2 => Assignment::CloudInCell,
                 3 => Assignment::TriangularShapedCloud,
+                4 => Assignment::Order4,
+                5 => Assignment::Order5,
+                6 => Assignment::Order6,
+                7 => Assignment::Order7,
                 _ => return Err(MeniscusStatus::Assignment),
             },
             influence: match parameters.influence {
                 1 => Influence::Paper,
                 2 => Influence::Continuum,
+                3 => Influence::Optimal,
                 _ => return Err(MeniscusStatus::Influence),
             },
             gradient: match parameters.gradient {
@@ -146,6 +216,11 @@ impl TryFrom<&MeniscusParameters> for Parameters {
                 2 => Gradient::Difference2,
                 4 => Gradient::Difference4,
                 _ => return Err(MeniscusStatus::Gradient),
+            },
+            fields: Fields {
+                uniform_force: [parameters.uniform_force_x, parameters.uniform_force_y],
+                trap_stiffness: parameters.trap_stiffness,
+                trap_center: [parameters.trap_center_x, parameters.trap_center_y],
             },
             noise: match parameters.noise {
                 1 => Noise::Uniform,
@@ -156,7 +231,6 @@ impl TryFrom<&MeniscusParameters> for Parameters {
             max_step: parameters.max_step,
             max_displacement: parameters.max_displacement,
             seed: parameters.seed,
-            ..Self::DEFAULT
         })
     }
 }
@@ -165,6 +239,12 @@ impl TryFrom<&MeniscusParameters> for Parameters {
 #[unsafe(no_mangle)]
 pub extern "C" fn meniscus_default_parameters() -> MeniscusParameters {
     MeniscusParameters::from(&Parameters::DEFAULT)
+}
+
+/// The same with the force and the mesh of the paper: all of the capillary force on the mesh.
+#[unsafe(no_mangle)]
+pub extern "C" fn meniscus_paper_parameters() -> MeniscusParameters {
+    MeniscusParameters::from(&Parameters::PAPER)
 }
 
 /// Where a run stands.
