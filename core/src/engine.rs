@@ -30,8 +30,20 @@ use crate::transform::{Complex32, FixedSize};
 /// A run on an M × M mesh with room for N discs.
 ///
 /// M is a power of two from 16 to 4096. All memory is inside; nothing is allocated.
+///
+/// The table of the near part has room for every cut-off, 4 KB; where these count, SEGMENTS may be less: a run with cut-off
+/// r_c takes [`table_length`](crate::near_part::table_length)(r_c), one without a near part none. A run that takes more is
+/// refused.
+///
+/// ```
+/// use meniscus_core::engine::Engine;
+/// use meniscus_core::near_part::table_length;
+///
+/// type Small = Engine<16, 32, { table_length(6.0) }>;
+/// assert!(size_of::<Small>() < 9 * 1024);
+/// ```
 #[derive(Debug)]
-pub struct Engine<const M: usize, const N: usize> {
+pub struct Engine<const M: usize, const N: usize, const SEGMENTS: usize = LARGEST_TABLE> {
     dynamics: Dynamics,
     ids: [u32; N],
     slots: [u32; N],
@@ -50,16 +62,16 @@ pub struct Engine<const M: usize, const N: usize> {
     lines: [[Complex32; M]; LINES],
     influence: [[f32; M]; M],
     gradient: [f32; M],
-    near: [Segment; LARGEST_TABLE],
+    near: [Segment; SEGMENTS],
 }
 
-impl<const M: usize, const N: usize> Default for Engine<M, N> {
+impl<const M: usize, const N: usize, const SEGMENTS: usize> Default for Engine<M, N, SEGMENTS> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<const M: usize, const N: usize> Engine<M, N> {
+impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENTS> {
     /// An engine without discs, all bits zero, so that a `static` of it takes no room in the program's file.
     #[must_use]
     pub const fn new() -> Self {
@@ -83,7 +95,7 @@ impl<const M: usize, const N: usize> Engine<M, N> {
             lines: [[ZERO; M]; LINES],
             influence: [[0.0; M]; M],
             gradient: [0.0; M],
-            near: [[0.0; 4]; LARGEST_TABLE],
+            near: [[0.0; 4]; SEGMENTS],
         }
     }
 
@@ -189,8 +201,9 @@ impl<const M: usize, const N: usize> Engine<M, N> {
         slots.get(id as usize).map(|&slot| slot as usize)
     }
 
-    /// The run and its memory, for those who compose the stages themselves: the ids, slots and coordinates are the
-    /// state, the rest is scratch that the next step overwrites.
+    /// The run and its memory, for those who compose the stages themselves: the ids, slots, coordinates, crossings and
+    /// strengths are the state, influence, gradient and near part tables that `init` filled for all steps to come, the
+    /// rest is scratch that the next step overwrites.
     pub fn parts(&mut self) -> (&mut Dynamics, Memory<'_>) {
         let memory = Memory {
             ids: &mut self.ids,

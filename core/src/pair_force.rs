@@ -124,8 +124,8 @@ impl PairForce {
 
 /// The cut-off of the near part, R0; 0 if there is none.
 #[must_use]
-pub fn near_cutoff(parameters: &Parameters) -> f64 {
-    if parameters.method == Method::P3m && parameters.capillary_strength > 0.0 {
+pub const fn near_cutoff(parameters: &Parameters) -> f64 {
+    if matches!(parameters.method, Method::P3m) && parameters.capillary_strength > 0.0 {
         parameters.cutoff
     } else {
         0.0

@@ -4,8 +4,11 @@
 
 use meniscus::observables::clusters::Clusters;
 use meniscus::observables::neighbours::squared_distance;
-use meniscus_cases::{CASES, Case, ROOM, discs, run};
+use meniscus_cases::{CASES, Case, ROOM, discs, longest_table, run};
 use meniscus_core::engine::Engine;
+use meniscus_core::fields::Fields;
+use meniscus_core::near_part::LARGEST_TABLE;
+use meniscus_core::parameters::{Assignment, Method};
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::{Position, Torus, UNITS};
 use std::collections::BTreeSet;
@@ -13,10 +16,17 @@ use std::sync::Mutex;
 
 const GOLDENS: &str = include_str!("../targets/goldens.txt");
 
-/// Stages of a case, the step and the last state.
-const LINES: usize = 9;
+/// How many lines a case has: seven stages, and with them the near part's table and the external fields, the step and the
+/// last state.
+fn lines_of(case: &Case) -> usize {
+    let parameters = &case.parameters;
+    let with_table = parameters.method == Method::P3m && parameters.capillary_strength > 0.0;
+    9 + usize::from(with_table) + usize::from(parameters.fields != Fields::NONE)
+}
 
-static ENGINE_16: Mutex<Engine<{ ROOM[0].0 }, { ROOM[0].1 }>> = Mutex::new(Engine::new());
+// With as short a table of the near part as the microcontrollers have.
+static ENGINE_16: Mutex<Engine<{ ROOM[0].0 }, { ROOM[0].1 }, { longest_table(16) }>> =
+    Mutex::new(Engine::new());
 static ENGINE_64: Mutex<Engine<{ ROOM[1].0 }, { ROOM[1].1 }>> = Mutex::new(Engine::new());
 static ENGINE_128: Mutex<Engine<{ ROOM[2].0 }, { ROOM[2].1 }>> = Mutex::new(Engine::new());
 static ENGINE_512: Mutex<Engine<{ ROOM[3].0 }, { ROOM[3].1 }>> = Mutex::new(Engine::new());
@@ -31,7 +41,9 @@ fn cases_of(grid: usize) -> impl Iterator<Item = &'static Case> {
 }
 
 /// Runs all cases of a mesh; tells how often each of them crossed the border.
-fn have_the_golden_lines<const M: usize, const N: usize>(engine: &Mutex<Engine<M, N>>) -> Vec<u32> {
+fn have_the_golden_lines<const M: usize, const N: usize, const SEGMENTS: usize>(
+    engine: &Mutex<Engine<M, N, SEGMENTS>>,
+) -> Vec<u32> {
     let mut engine = engine.lock().unwrap();
     let run_one = |case: &Case| {
         let mut found = String::new();
@@ -42,7 +54,8 @@ fn have_the_golden_lines<const M: usize, const N: usize>(engine: &Mutex<Engine<M
                 "\nif this is meant, say why in CHANGELOG.md and mint anew: tests/targets/run --mint 'REASON'"
             );
         }
-        assert_eq!((golden(case).len(), found.lines().count()), (LINES, LINES), "{}", case.name);
+        let expected = lines_of(case);
+        assert_eq!((golden(case).len(), found.lines().count()), (expected, expected), "{}", case.name);
         let crossings = (0..engine.count() as u32).filter_map(|id| engine.crossings(id));
         crossings.map(|(x, y)| x.unsigned_abs() + y.unsigned_abs()).sum()
     };
@@ -79,6 +92,23 @@ fn the_golden_file_holds_the_cases_and_nothing_else_and_says_why() {
         GOLDENS.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split(' ').next());
     assert_eq!(names.collect::<BTreeSet<_>>(), CASES.iter().map(|case| case.name).collect());
     assert!(GOLDENS.lines().any(|line| line.starts_with("# Minted by Meniscus ")));
+}
+
+#[test]
+fn the_cases_have_every_assignment_of_the_split_force_and_unequal_strengths_in_a_trap() {
+    assert!(longest_table(16) < LARGEST_TABLE / 4);
+    let split = || CASES.iter().filter(|case| case.parameters.method == Method::P3m);
+    for assignment in Assignment::ALL {
+        assert!(split().any(|case| case.parameters.assignment == assignment), "{assignment:?}");
+    }
+    for grid in ROOM.map(|(grid, _)| grid) {
+        assert!(split().any(|case| case.parameters.grid == grid), "{grid} nodes");
+    }
+    assert!(split().any(|case| case.parameters.capillary_length == f64::INFINITY));
+    for method in [Method::ParticleMesh, Method::P3m] {
+        let mut cases = CASES.iter().filter(|case| case.parameters.method == method);
+        assert!(cases.any(|case| case.parameters.fields != Fields::NONE && !case.has_equal_strengths()));
+    }
 }
 
 /// The first state of a case.

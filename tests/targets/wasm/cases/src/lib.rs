@@ -9,7 +9,7 @@ use meniscus_cases::{CASES, CaseError, ROOM, run};
 use meniscus_core::engine::Engine;
 
 /// Room for the text, about three times what the cases print.
-const ROOM_FOR_TEXT: usize = 32 * 1024;
+const ROOM_FOR_TEXT: usize = 64 * 1024;
 
 static mut ENGINE_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }> = Engine::new();
 static mut ENGINE_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }> = Engine::new();
