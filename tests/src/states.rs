@@ -4,7 +4,18 @@
 //! holds them; lengths are in R0.
 
 use crate::reference::RandomNumbers;
+use meniscus_core::parameters::{Assignment, Noise, Parameters};
 use meniscus_core::torus::{Position, Torus, TorusError, minimum_image};
+
+/// The repulsion alone, in a box of 16 R0.
+pub const REPULSION: Parameters = Parameters {
+    side: 16.0,
+    capillary_strength: 0.0,
+    grid: 16,
+    assignment: Assignment::CloudInCell,
+    noise: Noise::None,
+    ..Parameters::PAPER
+};
 
 /// `count` positions, every bit of both coordinates random.
 pub fn scattered(seed: u64, count: usize) -> Vec<Position> {

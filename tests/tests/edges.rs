@@ -1,27 +1,37 @@
 //! The edges of the ranges: each is driven to, and what is refused leaves the state as it was.
 
-use meniscus_core::dynamics::{Clock, Dynamics, ForceError, StepError};
+use meniscus_core::assignment::DISC;
+use meniscus_core::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, StepError};
 use meniscus_core::engine::Engine;
 use meniscus_core::ermak::{Displacement, HalfBox};
+use meniscus_core::fields::LARGEST_FIELD_FORCE;
+use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
+use meniscus_core::near_part::table_length;
 use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
 use meniscus_core::parameters::{
-    Assignment, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, Noise, Parameters, SPACING_RANGE,
+    Assignment, Influence, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, LARGEST_SPLITTING_OF_SPACING,
+    Method, Noise, ParameterError, Parameters, SPACING_RANGE,
 };
-use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE};
+use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, SMALLEST_DISTANCE};
 use meniscus_core::torus::{LARGEST_SIDE, Position};
 use meniscus_core::transform::AnySize;
 use meniscus_core::units::{FORCE_UNITS, TIME_UNITS, force_from_units, time_from_units};
 use meniscus_tests::arrays::Arrays;
 use meniscus_tests::long_tests;
-use meniscus_tests::states::{at, scattered, separation, with_ids};
+use meniscus_tests::reference::RandomNumbers;
+use meniscus_tests::states::{REPULSION as BOX, at, scattered, separated, separation, with_ids};
 
-const BOX: Parameters = Parameters {
-    side: 16.0,
-    capillary_strength: 0.0,
-    grid: 16,
-    assignment: Assignment::CloudInCell,
-    noise: Noise::None,
-    ..Parameters::DEFAULT
+/// The split force of discs that do not repel each other, without screening.
+const SPLIT: Parameters = Parameters {
+    capillary_strength: 3.0,
+    capillary_length: f64::INFINITY,
+    repulsion: false,
+    method: Method::P3m,
+    influence: Influence::Optimal,
+    assignment: Assignment::Order7,
+    splitting: 0.1,
+    cutoff: 6.0,
+    ..BOX
 };
 
 type Roomy = Engine<16, 4200>;
@@ -217,32 +227,244 @@ fn the_largest_box_works() {
 
 #[test]
 fn a_heap_of_thousands_of_discs_does_not_overflow() {
-    let count = if long_tests() { 4000 } else { 1500 };
-    let parameters = Parameters { capillary_strength: 1000.0, ..BOX };
-    let mut engine: Box<Roomy> = started(&parameters, &vec![Position::from_bits(3, 3); count]);
-    let step = engine.step().unwrap();
-    assert!(step.length > 0);
-    // The lowest id is pushed to the right by all others, the highest to the left.
-    let pair = engine.force(0).unwrap().0 / (count as i64 - 1);
-    assert!(force_from_units(pair) > 0.999 * LARGEST_FORCE);
-    for id in 0..count as i64 {
-        let expected = (count as i64 - 1 - 2 * id) * pair;
-        // The mesh adds no more than rounding to discs at one place.
-        let off = engine.force(id as u32).unwrap().0 - expected;
-        assert!(force_from_units(off.abs()) < LARGEST_FORCE, "{off}");
+    let count = if long_tests() { 4000 } else { 1000 };
+    let (capillary_strength, splitting) = (1000.0, LARGEST_SPLITTING_OF_SPACING);
+    let split = Parameters { capillary_strength, splitting, repulsion: true, ..SPLIT };
+    for parameters in [Parameters { capillary_strength, ..BOX }, split] {
+        let mut engine: Box<Roomy> = started(&parameters, &vec![Position::from_bits(3, 3); count]);
+        let step = engine.step().unwrap();
+        assert!(step.length > 0);
+        // The lowest id is pushed to the right by all others, the highest to the left; the near part draws each pair
+        // together with at most V0/0.9 R0, 0.0015 of it.
+        let pair = engine.force(0).unwrap().0 / (count as i64 - 1);
+        assert!(force_from_units(pair) > 0.998 * LARGEST_FORCE);
+        for id in 0..count as i64 {
+            let expected = (count as i64 - 1 - 2 * id) * pair;
+            // The mesh adds no more than rounding to discs at one place.
+            let off = engine.force(id as u32).unwrap().0 - expected;
+            assert!(force_from_units(off.abs()) < LARGEST_FORCE, "{off}");
+        }
     }
 }
 
 #[test]
 fn the_total_force_stays_below_two_to_the_63() {
     // Every number here is an integer or rounded up.
+    let in_units = |force: f64| (force * f64::from(FORCE_UNITS)).ceil() as u128;
     let count = LARGEST_PARTICLE_COUNT as u128;
-    let pair = (LARGEST_FORCE * f64::from(FORCE_UNITS)).ceil() as u128;
-    // 4 V0/h for each disc, see the mesh's own test of the modes.
-    let mesh = (4.0 * LARGEST_CAPILLARY_STRENGTH / SPACING_RANGE.0 * f64::from(FORCE_UNITS)).ceil() as u128;
-    let component = (count - 1) * pair + count * mesh;
+    // 6 V0/h for each disc: see the modes below, and the mesh's own test of them.
+    let mesh = in_units(6.0 * LARGEST_CAPILLARY_STRENGTH / SPACING_RANGE.0);
+    let near = in_units(1.000_001 * LARGEST_CAPILLARY_STRENGTH / SMALLEST_DISTANCE);
+    let pair = in_units(LARGEST_FORCE) + near;
+    let component = (count - 1) * pair + count * mesh + in_units(LARGEST_FIELD_FORCE);
     assert!(component < 1 << 63, "{component:e}");
     assert!(2 * component * component < 1 << 127);
+}
+
+/// Σ |influence · gradient| over all modes, in V0/h, which bounds the field of one disc's mass wherever it lies.
+fn sum_of_moduli(parameters: &Parameters) -> f64 {
+    let grid = parameters.grid;
+    let (mut influence, mut gradient) = (vec![0.0; influence_length(grid)], vec![0.0; grid]);
+    fill_influence(parameters, &mut influence);
+    fill_gradient(parameters, &mut gradient);
+    let mut sum = 0.0;
+    for x in 0..grid {
+        for y in 0..grid {
+            let fold = |index: usize| index.min(grid - index);
+            let entry = influence[fold(x) * (grid / 2 + 1) + fold(y)];
+            sum += f64::from(entry.abs()) * libm::hypot(f64::from(gradient[x]), f64::from(gradient[y]));
+        }
+    }
+    // The table holds half of what a mode is multiplied with, per 2⁻²⁰.
+    2.0 * f64::from(DISC) * sum * (parameters.side / grid as f64) / parameters.capillary_strength
+}
+
+#[test]
+fn the_modes_of_every_optimal_influence_function_add_up_to_less_than_six_v0_over_h() {
+    let grids: &[usize] = if long_tests() { &[16, 32, 64, 128, 256, 512, 1024] } else { &[16, 64] };
+    let mut largest: f64 = 0.0;
+    for assignment in Assignment::ALL {
+        for &grid in grids {
+            for of_spacing in [0.1, 0.4, LARGEST_SPLITTING_OF_SPACING] {
+                for spacing in [0.3, 16.0] {
+                    let (side, splitting) = (spacing * grid as f64, of_spacing / spacing * (1.0 - 1e-15));
+                    let parameters = Parameters { side, grid, splitting, assignment, cutoff: 1.5, ..SPLIT };
+                    assert_eq!(parameters.validate(), Ok(()));
+                    let sum = sum_of_moduli(&parameters);
+                    assert!(sum < 6.0, "{sum} V0/h: {parameters:?}");
+                    largest = largest.max(sum);
+                }
+            }
+        }
+    }
+    println!("largest sum of moduli: {largest:.3} V0/h");
+    assert!(largest > 2.0, "{largest} V0/h: not the sum that is meant");
+}
+
+/// Forces by id, kBT/R0.
+#[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+fn forces(parameters: &Parameters, discs: &[Position]) -> Vec<[f64; 2]> {
+    let mut engine = started::<64>(parameters, discs);
+    engine.compute_forces().unwrap();
+    let force = |id: u32| engine.force(id).unwrap();
+    (0..discs.len() as u32).map(|id| [force(id).0, force(id).1].map(force_from_units)).collect()
+}
+
+#[test]
+fn a_cut_off_just_below_half_the_box_works_and_half_the_box_is_refused() {
+    // One unit of position below.
+    let below = 8.0 * (1.0 - 1.0 / 2_147_483_648.0);
+    let wide = Parameters { cutoff: below, ..SPLIT };
+    let narrow = Parameters { cutoff: 1.0, ..SPLIT };
+    let discs = separated(2, 30, 16.0, 1.5);
+    assert_eq!(discs.len(), 30);
+    // What lies between the two cut-offs: V0·exp(−α²d²)/d of every pair.
+    let unit = 16.0 / 4_294_967_296.0;
+    let (wide_forces, narrow_forces) = (forces(&wide, &discs), forces(&narrow, &discs));
+    for (first, (wide, narrow)) in discs.iter().zip(wide_forces.iter().zip(&narrow_forces)) {
+        let mut expected = [0.0; 2];
+        for second in discs.iter().filter(|&second| second != first) {
+            let along = |to: u32, from: u32| f64::from(to.wrapping_sub(from) as i32) * unit;
+            let x = along(second.x.to_bits(), first.x.to_bits());
+            let y = along(second.y.to_bits(), first.y.to_bits());
+            let squared = x * x + y * y;
+            if squared < 64.0 {
+                let pull = 3.0 * libm::exp(-0.01 * squared) / squared;
+                expected = [expected[0] + pull * x, expected[1] + pull * y];
+            }
+        }
+        for axis in 0..2 {
+            // 29 pairs of at most 3 kBT / 1.5 R0, each good to 10⁻⁶.
+            let off = (wide[axis] - narrow[axis] - expected[axis]).abs();
+            assert!(off < 29.0 * 2.0e-6, "{off}");
+        }
+    }
+    let mut engine = started::<64>(&Parameters { repulsion: true, noise: Noise::Uniform, ..wide }, &discs);
+    for _ in 0..20 {
+        engine.step().unwrap();
+    }
+    for cutoff in [below.next_up(), 8.0_f64.next_down(), 8.0] {
+        let refused = engine.init(&Parameters { cutoff, ..SPLIT }, with_ids(&discs));
+        assert_eq!(refused, Err(InitError::Parameters(ParameterError::CutoffTooLarge)));
+    }
+}
+
+#[test]
+fn discs_half_a_box_apart_have_no_near_part_whatever_the_box() {
+    let mut random = RandomNumbers::new(1);
+    let half = 1 << 31;
+    for _ in 0..200 {
+        let side = 16.0 + 200.0 * random.uniform();
+        let splitting = 0.5 / side;
+        let parameters = Parameters { side, splitting, cutoff: 0.5 * side * (1.0 - 1e-9), ..SPLIT };
+        for place in [(half, 0), (0, half), (half, 5), (half, half)] {
+            let discs = [Position::from_bits(0, 0), Position::from_bits(place.0, place.1)];
+            // As far as both discs are alike there is no telling which way; the mesh adds rounding. Beyond half a box
+            // the near part would be V0·0.9/d, a hundred times that.
+            for force in forces(&parameters, &discs) {
+                let bound = 0.01 * 3.0 / (0.5 * side);
+                assert!(force.iter().all(|component| component.abs() < bound), "{force:?}, side {side}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_engine_with_too_short_a_table_refuses_the_cut_off() {
+    const SEGMENTS: usize = table_length(6.0);
+    let discs = with_ids(&scattered(1, 4));
+    let mut engine = Box::new(Engine::<16, 4, SEGMENTS>::new());
+    assert_eq!(engine.init(&SPLIT, discs.iter().copied()), Ok(()));
+    assert!(engine.step().is_ok());
+    let mut long = Box::new(Engine::<16, 4>::new());
+    long.init(&SPLIT, discs.iter().copied()).unwrap();
+    assert!(long.step().is_ok());
+    assert_eq!(engine.state().digest(), long.state().digest());
+    let further = Parameters { cutoff: 7.9, ..SPLIT };
+    assert_eq!(engine.init(&further, discs.iter().copied()), Err(InitError::Memory));
+    assert_eq!(engine.count(), 0);
+    let mut shorter = Box::new(Engine::<16, 4, { SEGMENTS - 1 }>::new());
+    assert_eq!(shorter.init(&SPLIT, discs.iter().copied()), Err(InitError::Memory));
+    let mut none = Box::new(Engine::<16, 4, 0>::new());
+    assert_eq!(none.init(&SPLIT, discs.iter().copied()), Err(InitError::Memory));
+    // Without a near part, none is needed.
+    assert_eq!(none.init(&Parameters { capillary_strength: 0.0, ..SPLIT }, discs.iter().copied()), Ok(()));
+    assert!(none.step().is_ok());
+    assert_eq!(none.init(&Parameters { capillary_strength: 1.0, ..BOX }, discs.iter().copied()), Ok(()));
+    assert!(none.step().is_ok());
+}
+
+#[test]
+fn memory_that_became_too_short_is_refused_and_the_state_stays() {
+    let changes: [fn(&mut Arrays); 3] = [
+        |arrays| arrays.near.truncate(table_length(6.0) - 1),
+        |arrays| arrays.strengths.truncate(3),
+        |arrays| arrays.influence.truncate(80),
+    ];
+    for change in changes {
+        let mut arrays = Arrays::new(16, 1, 4);
+        let discs = with_ids(&scattered(1, 4));
+        let mut dynamics = Dynamics::new(&SPLIT, Clock::START, discs, &mut arrays.memory()).unwrap();
+        let whole = arrays.clone();
+        change(&mut arrays);
+        assert_eq!(dynamics.forces(&AnySize, &mut arrays.memory()), Err(ForceError::Memory));
+        assert_eq!(dynamics.step(&AnySize, &mut arrays.memory()), Err(StepError::Memory));
+        assert_eq!((dynamics.clock(), &arrays.x, &arrays.y), (Clock::START, &whole.x, &whole.y));
+        arrays = whole;
+        assert!(dynamics.step(&AnySize, &mut arrays.memory()).is_ok());
+    }
+}
+
+/// Discs of the strengths at one place each, on mesh nodes a quarter of the box apart.
+fn with_strengths(strengths: &[i32]) -> impl Iterator<Item = Disc> {
+    let place = |id: u32| Position::from_bits(id << 30, (id >> 2) << 30);
+    (0..).zip(strengths).map(move |(id, &strength)| Disc { id, position: place(id), strength })
+}
+
+#[test]
+fn the_largest_strengths_work_and_larger_ones_are_refused() {
+    let one = DISC as i32;
+    let mut engine = Box::new(Engine::<16, 4>::new());
+    let cases = [
+        (1.0e-3, 1000 * one, true),
+        (1.0e-3, -1000 * one, true),
+        (1.0e-3, 1000 * one + 1, false),
+        (0.0, 1000 * one, true),
+        (0.0, -1000 * one - 1, false),
+        (0.0, i32::MIN, false),
+        (0.0, i32::MAX, false),
+        (1.1e-3, 1000 * one, false),
+        (1000.0, -one, true),
+        (1000.0, one + 1, false),
+        (250.0, 2 * one, true),
+    ];
+    for (capillary_strength, strength, accepted) in cases {
+        for parameters in [SPLIT, BOX] {
+            let parameters = Parameters { capillary_strength, ..parameters };
+            let result = engine.init(&parameters, with_strengths(&[0, strength, -one / 2]));
+            let expected = if accepted { Ok(()) } else { Err(InitError::Strength { id: 1 }) };
+            assert_eq!(result, expected, "V0 = {capillary_strength}, strength {strength}");
+            assert_eq!(engine.step().is_ok(), accepted);
+        }
+    }
+}
+
+#[test]
+fn a_node_with_strengths_of_more_than_2047_is_refused_whatever_their_signs() {
+    let parameters = Parameters { capillary_strength: 1e-3, repulsion: false, ..BOX };
+    let one = DISC as i32;
+    let on_a_node = |id: u32, strength| Disc { id, position: Position::from_bits(1 << 28, 0), strength };
+    for sign in [1, -1] {
+        let mut engine = Box::new(Engine::<16, 4>::new());
+        let full = [on_a_node(0, 1000 * one), on_a_node(1, sign * 1000 * one), on_a_node(2, sign * 47 * one)];
+        engine.init(&parameters, full).unwrap();
+        assert!(engine.step().is_ok());
+        let crowded =
+            [on_a_node(0, 1000 * one), on_a_node(1, sign * 1000 * one), on_a_node(2, sign * 48 * one)];
+        engine.init(&parameters, crowded).unwrap();
+        assert_eq!(engine.compute_forces(), Err(ForceError::Crowded));
+        assert_refused(&mut engine, StepError::Crowded);
+    }
 }
 
 #[test]

@@ -3,7 +3,10 @@
 use meniscus_core::dynamics::{Clock, Disc, Dynamics, InitError};
 use meniscus_core::engine::Engine;
 use meniscus_core::grid::Grid;
-use meniscus_core::parameters::{LARGEST_SEED, ParameterError, Parameters};
+use meniscus_core::near_part::table_length;
+use meniscus_core::parameters::{
+    Assignment, Gradient, Influence, LARGEST_SEED, Method, ParameterError, Parameters,
+};
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::Position;
 use meniscus_tests::arrays::Arrays;
@@ -12,11 +15,14 @@ use meniscus_tests::states::{scattered, with_ids};
 /// 2⁻⁴⁰
 const SMALLEST: f64 = 1.0 / 1_099_511_627_776.0;
 
-/// Changes the default parameters.
+/// 1 − 2⁻³¹: a length less than half a box by one unit of position, over half the box.
+const JUST_BELOW_ONE: f64 = 1.0 - 1.0 / 2_147_483_648.0;
+
+/// Changes the parameters of the paper.
 type Change = fn(&mut Parameters);
 
 fn changed(change: Change) -> Parameters {
-    let mut parameters = Parameters::default();
+    let mut parameters = Parameters::PAPER;
     change(&mut parameters);
     parameters
 }
@@ -107,6 +113,160 @@ fn every_number_out_of_range_is_refused() {
     }
 }
 
+/// The split force in a box of 64 R0.
+const SPLIT: Parameters = Parameters {
+    method: Method::P3m,
+    influence: Influence::Optimal,
+    splitting: 0.5,
+    cutoff: 6.0,
+    assignment: Assignment::Order4,
+    ..Parameters::PAPER
+};
+
+#[test]
+fn what_does_not_fit_the_split_force_is_refused() {
+    let cases: [(ParameterError, &[Change]); 6] = [
+        (
+            ParameterError::Splitting,
+            &[
+                |p| p.splitting = 0.0,
+                |p| p.splitting = -0.5,
+                |p| p.splitting = 1e-5_f64.next_down(),
+                |p| p.splitting = 8.0_f64.next_up(),
+                |p| p.splitting = f64::INFINITY,
+                |p| p.splitting = f64::NAN,
+            ],
+        ),
+        (
+            ParameterError::SplittingTooLarge,
+            &[|p| p.splitting = 0.7_f64.next_up(), |p| p.splitting = 8.0, |p| p.grid = 32],
+        ),
+        (
+            ParameterError::Cutoff,
+            &[
+                |p| p.cutoff = 1.0_f64.next_down(),
+                |p| p.cutoff = 0.0,
+                |p| p.cutoff = -6.0,
+                |p| p.cutoff = f64::NEG_INFINITY,
+                |p| p.cutoff = f64::NAN,
+            ],
+        ),
+        (
+            ParameterError::CutoffTooLarge,
+            &[
+                |p| p.cutoff = 32.0,
+                |p| p.cutoff = (JUST_BELOW_ONE * 32.0).next_up(),
+                |p| p.cutoff = f64::INFINITY,
+                |p| {
+                    p.side = 12.0;
+                    p.cutoff = 6.0;
+                },
+            ],
+        ),
+        (
+            ParameterError::Influence,
+            &[
+                |p| p.influence = Influence::Paper,
+                |p| p.influence = Influence::Continuum,
+                |p| p.method = Method::ParticleMesh,
+            ],
+        ),
+        (
+            ParameterError::Gradient,
+            &[|p| p.gradient = Gradient::Difference2, |p| p.gradient = Gradient::Difference4],
+        ),
+    ];
+    assert_eq!(SPLIT.validate(), Ok(()));
+    for (error, changes) in cases {
+        for &change in changes {
+            let mut parameters = SPLIT;
+            change(&mut parameters);
+            assert_eq!(parameters.validate(), Err(error), "{parameters:?}");
+        }
+    }
+}
+
+#[test]
+fn the_ends_of_every_range_of_the_split_force_are_accepted() {
+    let changes: [Change; 8] = [
+        |p| p.splitting = 1e-5,
+        |p| p.splitting = 0.7,
+        |p| {
+            // The finest mesh.
+            p.side = 8.0;
+            p.splitting = 5.6;
+            p.cutoff = JUST_BELOW_ONE * 4.0;
+        },
+        |p| p.cutoff = 1.0,
+        |p| p.cutoff = JUST_BELOW_ONE * 32.0,
+        |p| p.capillary_length = f64::INFINITY,
+        |p| p.capillary_length = 0.01,
+        |p| p.capillary_strength = 0.0,
+    ];
+    for change in changes {
+        for assignment in Assignment::ALL {
+            let mut parameters = Parameters { assignment, ..SPLIT };
+            change(&mut parameters);
+            assert_eq!(parameters.validate(), Ok(()), "{parameters:?}");
+        }
+    }
+}
+
+#[test]
+fn the_mesh_alone_does_not_look_at_splitting_and_cut_off() {
+    for value in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e9] {
+        let parameters = Parameters { splitting: value, cutoff: value, ..Parameters::PAPER };
+        assert_eq!(parameters.validate(), Ok(()));
+        let mut engine = Box::new(Engine::<64, 4>::new());
+        assert_eq!(engine.init(&parameters, with_ids(&scattered(1, 4))), Ok(()));
+        assert!(engine.step().is_ok());
+    }
+}
+
+#[test]
+fn external_fields_out_of_range_are_refused_with_either_method() {
+    let refused: [Change; 12] = [
+        |p| p.fields.uniform_force = [f64::NAN, 0.0],
+        |p| p.fields.uniform_force = [0.0, f64::INFINITY],
+        |p| p.fields.uniform_force = [1e8_f64.next_up(), 0.0],
+        |p| p.fields.uniform_force = [0.0, -1e8_f64.next_up()],
+        |p| p.fields.trap_stiffness = f64::NAN,
+        |p| p.fields.trap_stiffness = -f64::MIN_POSITIVE,
+        |p| p.fields.trap_stiffness = f64::INFINITY,
+        // 32 R0 from its centre, 10⁸ kBT/R0 and a little more; 10⁸ of the two together.
+        |p| p.fields.trap_stiffness = 3.125e6_f64.next_up(),
+        |p| {
+            p.fields.trap_stiffness = 3.125e6;
+            p.fields.uniform_force = [0.0, 0.001];
+        },
+        |p| p.fields.trap_center = [-f64::MIN_POSITIVE, 0.0],
+        |p| p.fields.trap_center = [0.0, 64.0_f64.next_up()],
+        |p| p.fields.trap_center = [f64::NAN, 0.0],
+    ];
+    let accepted: [Change; 5] = [
+        |p| p.fields.uniform_force = [1e8, -1e8],
+        |p| p.fields.trap_stiffness = 3.125e6,
+        |p| p.fields.trap_stiffness = -0.0,
+        |p| p.fields.trap_center = [0.0, 64.0],
+        |p| {
+            p.fields.trap_stiffness = 1.5625e6;
+            p.fields.uniform_force = [5e7, -5e7];
+        },
+    ];
+    for method in [Parameters::PAPER, SPLIT] {
+        for change in refused {
+            let mut parameters = method;
+            change(&mut parameters);
+            assert_eq!(parameters.validate(), Err(ParameterError::Fields), "{parameters:?}");
+        }
+        for change in accepted {
+            let mut parameters = method;
+            change(&mut parameters);
+            assert_eq!(parameters.validate(), Ok(()), "{parameters:?}");
+        }
+    }
+}
+
 #[test]
 fn a_grid_is_a_power_of_two_from_16_to_4096() {
     let grids: Vec<Grid> = (0..10_000).filter_map(Grid::new).collect();
@@ -131,7 +291,7 @@ const FIELDS: [(Field, ParameterError); 5] = [
 fn what_is_not_a_number_is_refused_everywhere() {
     for (field, error) in FIELDS {
         for value in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let mut parameters = Parameters::default();
+            let mut parameters = Parameters::PAPER;
             *field(&mut parameters) = value;
             let allowed = error == ParameterError::CapillaryLength && value == f64::INFINITY;
             assert_eq!(parameters.validate(), if allowed { Ok(()) } else { Err(error) }, "{parameters:?}");
@@ -171,7 +331,7 @@ fn the_ends_of_every_range_are_accepted() {
 
 #[test]
 fn the_first_error_in_the_order_of_the_fields_is_told() {
-    let mut parameters = Parameters { grid: 0, seed: u64::MAX, max_step: f64::NAN, ..Parameters::default() };
+    let mut parameters = Parameters { grid: 0, seed: u64::MAX, max_step: f64::NAN, ..Parameters::PAPER };
     assert_eq!(parameters.validate(), Err(ParameterError::Grid));
     parameters.grid = 64;
     assert_eq!(parameters.validate(), Err(ParameterError::MaxStep));
@@ -184,7 +344,7 @@ const PLACE: Position = Position::from_bits(1, 2);
 #[test]
 fn a_mesh_other_than_the_engines_is_refused() {
     let mut engine = Box::new(Engine::<32, 4>::new());
-    let refused = engine.init(&Parameters::default(), [(0, PLACE)]);
+    let refused = engine.init(&Parameters::PAPER, [(0, PLACE)]);
     assert_eq!(refused, Err(InitError::GridMismatch));
 }
 
@@ -192,17 +352,17 @@ fn a_mesh_other_than_the_engines_is_refused() {
 fn no_disc_is_refused() {
     const NOBODY: [Disc; 0] = [];
     let mut engine = Box::new(Engine::<64, 4>::new());
-    assert_eq!(engine.init(&Parameters::default(), NOBODY), Err(InitError::NoParticles));
+    assert_eq!(engine.init(&Parameters::PAPER, NOBODY), Err(InitError::NoParticles));
 }
 
 #[test]
 fn more_discs_than_fit_are_refused() {
     let mut engine = Box::new(Engine::<64, 4>::new());
-    let refused = engine.init(&Parameters::default(), with_ids(&scattered(1, 5)));
+    let refused = engine.init(&Parameters::PAPER, with_ids(&scattered(1, 5)));
     assert_eq!(refused, Err(InitError::TooManyParticles { capacity: 4 }));
-    assert_eq!(engine.init(&Parameters::default(), with_ids(&scattered(1, 4))), Ok(()));
+    assert_eq!(engine.init(&Parameters::PAPER, with_ids(&scattered(1, 4))), Ok(()));
     let mut none = Box::new(Engine::<64, 0>::new());
-    let refused = none.init(&Parameters::default(), [(0, PLACE)]);
+    let refused = none.init(&Parameters::PAPER, [(0, PLACE)]);
     assert_eq!(refused, Err(InitError::TooManyParticles { capacity: 0 }));
 }
 
@@ -210,7 +370,7 @@ fn more_discs_than_fit_are_refused() {
 fn no_memory_holds_more_discs_than_the_sum_of_forces_allows() {
     let largest = 1 << 19;
     let mut arrays = Arrays::new(16, 1, largest + 1);
-    let parameters = Parameters { grid: 16, ..Parameters::default() };
+    let parameters = Parameters { grid: 16, ..Parameters::PAPER };
     let discs = |count: usize| (0..count as u32).map(|id| (id, Position::from_bits(id << 12, id)));
     let refused = Dynamics::new(&parameters, Clock::START, discs(largest + 1), &mut arrays.memory());
     assert_eq!(refused.err(), Some(InitError::TooManyParticles { capacity: largest }));
@@ -230,16 +390,16 @@ fn ids_that_are_no_permutation_are_refused() {
         (&[0, 1, 2, u32::MAX], u32::MAX),
     ];
     for (ids, id) in cases {
-        let refused = engine.init(&Parameters::default(), ids.iter().map(|&id| (id, PLACE)));
+        let refused = engine.init(&Parameters::PAPER, ids.iter().map(|&id| (id, PLACE)));
         assert_eq!(refused, Err(InitError::Id { id }), "{ids:?}");
     }
-    let accepted = engine.init(&Parameters::default(), [3, 1, 0, 2].map(|id| (id, PLACE)));
+    let accepted = engine.init(&Parameters::PAPER, [3, 1, 0, 2].map(|id| (id, PLACE)));
     assert_eq!(accepted, Ok(()));
 }
 
 #[test]
 fn arrays_that_do_not_fit_the_mesh_are_refused() {
-    let parameters = Parameters { grid: 16, ..Parameters::default() };
+    let parameters = Parameters { grid: 16, ..Parameters::PAPER };
     let changes: [fn(&mut Arrays); 7] = [
         |arrays| arrays.nodes.truncate(255),
         |arrays| arrays.nodes.push(0),
@@ -260,9 +420,28 @@ fn arrays_that_do_not_fit_the_mesh_are_refused() {
 }
 
 #[test]
+fn a_table_too_short_for_the_cut_off_is_refused() {
+    let parameters = Parameters { grid: 16, side: 16.0, ..SPLIT };
+    let mut arrays = Arrays::new(16, 1, 4);
+    arrays.near.truncate(table_length(6.0) - 1);
+    let refused = Dynamics::new(&parameters, Clock::START, [(0, PLACE)], &mut arrays.memory());
+    assert_eq!(refused.err(), Some(InitError::Memory));
+    arrays.near.resize(table_length(6.0), [0.0; 4]);
+    assert!(Dynamics::new(&parameters, Clock::START, [(0, PLACE)], &mut arrays.memory()).is_ok());
+    // Neither the mesh alone nor discs without attraction need one.
+    arrays.near.clear();
+    for needless in [
+        Parameters { capillary_strength: 0.0, ..parameters },
+        Parameters { grid: 16, side: 16.0, ..Parameters::PAPER },
+    ] {
+        assert!(Dynamics::new(&needless, Clock::START, [(0, PLACE)], &mut arrays.memory()).is_ok());
+    }
+}
+
+#[test]
 fn the_shortest_array_limits_the_number_of_discs() {
-    let parameters = Parameters { grid: 16, ..Parameters::default() };
-    let changes: [fn(&mut Arrays); 11] = [
+    let parameters = Parameters { grid: 16, ..Parameters::PAPER };
+    let changes: [fn(&mut Arrays); 12] = [
         |arrays| arrays.ids.truncate(3),
         |arrays| arrays.slots.truncate(3),
         |arrays| arrays.x.truncate(3),
@@ -273,6 +452,7 @@ fn the_shortest_array_limits_the_number_of_discs() {
         |arrays| arrays.force_y.truncate(3),
         |arrays| arrays.displacement_x.truncate(3),
         |arrays| arrays.displacement_y.truncate(3),
+        |arrays| arrays.strengths.truncate(3),
         |arrays| arrays.next.truncate(3),
     ];
     for (case, change) in changes.into_iter().enumerate() {

@@ -2,24 +2,14 @@
 
 use meniscus_core::cells::Separation;
 use meniscus_core::engine::Engine;
-use meniscus_core::parameters::{Assignment, Noise, Parameters};
+use meniscus_core::parameters::Parameters;
 use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, Repulsion, SMALLEST_DISTANCE};
 use meniscus_core::torus::Position;
 use meniscus_core::units::{FORCE_UNITS, force_from_units};
 use meniscus_tests::reference::wca;
-use meniscus_tests::states::{crowded, scattered, shuffled, with_ids};
+use meniscus_tests::states::{REPULSION, crowded, scattered, shuffled, with_ids};
 use meniscus_tests::tolerances::{FORCE_QUANTUM, PAIR_FORCE};
 use proptest::prelude::*;
-
-/// The repulsion alone.
-const REPULSION: Parameters = Parameters {
-    side: 16.0,
-    capillary_strength: 0.0,
-    grid: 16,
-    assignment: Assignment::CloudInCell,
-    noise: Noise::None,
-    ..Parameters::PAPER
-};
 
 /// Forces by id, unit 2⁻²⁴ kBT/R0, of discs in a box of `side`.
 #[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
