@@ -50,7 +50,8 @@ impl OptimalInfluence {
     /// and where each component is 0 or Nyquist's.
     #[must_use]
     pub fn at(&self, l: usize, m: usize) -> f64 {
-        let (x, y) = (self.along(l), self.along(m));
+        // In one order, so that both ways give the same bits.
+        let (x, y) = (self.along(l.min(m)), self.along(l.max(m)));
         let gradient_squared = x.gradient * x.gradient + y.gradient * y.gradient;
         if gradient_squared == 0.0 {
             return 0.0;

@@ -183,7 +183,7 @@ pub const SPLIT_NEWTONIAN_RADIUS: Within = Within(2e-4, 3.5e-4);
 
 /// Growth rate of waves k < 0.2 K against Eq. 10, relative, beside the statistical error. Eq. 10 has the pressure of an
 /// ideal gas, (k/K)² < 0.04 of the rate; contacts raise it by 4π·0.01 of itself, clusters lower it. A mesh
-/// of spacing 4.8 R0 adds 0.4 %, Euler's steps of 0.1 R0²/D add 0.3 %.
+/// of spacing 4.8 R0 adds 0.4 %, Euler's steps of 0.05 R0²/D add 0.15 %.
 pub const GROWTH_OF_LONG_WAVES: f64 = 0.01;
 
 /// Standard errors allowed beside it.

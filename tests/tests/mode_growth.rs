@@ -32,8 +32,8 @@ struct Resolution {
 
 /// What makes a run of the waves k < 0.2 K cheap: they do not see a mesh of spacing 4.8 R0 (kh < 0.23, which weakens
 /// the paper's force by 1 % at the most and 0.4 % on average), nor whether discs in contact repel, nor a longer step
-/// when none do (0.1 R0²/D weakens growth by half of 0.1/T, 0.3 %).
-const COARSE: Resolution = Resolution { grid: 128, max_step: 0.1, repulsion: false };
+/// when none do.
+const COARSE: Resolution = Resolution { grid: 128, max_step: 0.05, repulsion: false };
 
 /// All of Fig. 2 but the ceiling of the step, which is for pairs in contact.
 const FINE: Resolution = Resolution { grid: 512, max_step: 0.005, repulsion: true };
