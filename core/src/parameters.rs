@@ -8,6 +8,7 @@
 //!
 //! let table_1 = Parameters { side: 500.0, grid: 512, ..Parameters::default() };
 //! assert_eq!(table_1.validate(), Ok(()));
+//! assert_eq!(table_1.with_p3m().validate(), Ok(()));
 //! let nonsense = Parameters { capillary_length: f64::NAN, ..table_1 };
 //! assert_eq!(nonsense.validate(), Err(ParameterError::CapillaryLength));
 //! ```
@@ -167,8 +168,25 @@ impl Parameters {
         seed: 1,
     };
 
-    /// The same.
+    /// The same: the one scheme without a number that must suit the mesh. [`Parameters::with_p3m`] makes it exact.
     pub const DEFAULT: Self = Self::PAPER;
+
+    /// The same parameters with the capillary force split: order 5, α = 0.5/h, cut-off 7 h, which errs by about 10⁻⁴ of
+    /// the root mean square force of discs at random, whatever the mesh. For another accuracy the host's estimate
+    /// says what it takes.
+    #[must_use]
+    pub fn with_p3m(self) -> Self {
+        let spacing = self.side / self.grid as f64;
+        Self {
+            method: Method::P3m,
+            assignment: Assignment::Order5,
+            influence: Influence::Optimal,
+            gradient: Gradient::Spectral,
+            splitting: 0.5 / spacing,
+            cutoff: if 7.0 * spacing > SMALLEST_CUTOFF { 7.0 * spacing } else { SMALLEST_CUTOFF },
+            ..self
+        }
+    }
 }
 
 impl Default for Parameters {

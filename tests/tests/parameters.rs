@@ -10,6 +10,7 @@ use meniscus_core::parameters::{
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::Position;
 use meniscus_tests::arrays::Arrays;
+use meniscus_tests::schemes::SPLIT;
 use meniscus_tests::states::{scattered, with_ids};
 
 /// 2⁻⁴⁰
@@ -462,4 +463,19 @@ fn the_shortest_array_limits_the_number_of_discs() {
         let refused = Dynamics::new(&parameters, Clock::START, discs, &mut arrays.memory());
         assert_eq!(refused.err(), Some(InitError::TooManyParticles { capacity: 3 }), "case {case}");
     }
+}
+
+#[test]
+fn every_mesh_has_a_split_force() {
+    for grid in [16, 64, 4096] {
+        for spacing in [0.281, 1.0, 15.9] {
+            let plain = Parameters { side: grid as f64 * spacing, grid, ..Parameters::PAPER };
+            let split = plain.with_p3m();
+            assert_eq!(split.validate(), Ok(()), "{split:?}");
+            // Physics is tested with these numbers.
+            assert_eq!(split, SPLIT.of(plain));
+        }
+    }
+    let finest = Parameters { side: 16.0, grid: 128, ..Parameters::PAPER };
+    assert_eq!(finest.with_p3m().validate(), Ok(()));
 }
