@@ -108,38 +108,23 @@ pub fn deposit_strengths(
     // Moduli only ever add up, so that saturation is free of order; the signed sums then cannot overflow. Rounding
     // adds at most half a unit a node and disc, which the room above the limit holds.
     if total > u64::from(limit) {
-        by_order!(assignment, deposit_moduli(grid, (x, y), strengths, nodes));
+        let add = |sum: u32, share: i32| sum.saturating_add(share.unsigned_abs());
+        by_order!(assignment, deposit_shares(grid, (x, y), strengths, nodes, add));
         if nodes.iter().any(|&modulus| modulus > limit) {
             return Err(Crowded);
         }
     }
-    by_order!(assignment, deposit_signed(grid, (x, y), strengths, nodes));
+    by_order!(assignment, deposit_shares(grid, (x, y), strengths, nodes, u32::wrapping_add_signed));
     Ok(())
 }
 
-fn deposit_moduli<const P: usize>(
+/// Spreads the shares of discs of these strengths over the nodes; `add` puts a share to what a node holds.
+fn deposit_shares<const P: usize>(
     grid: Grid,
     (x, y): (&[Fraction], &[Fraction]),
     strengths: &[i32],
     nodes: &mut [u32],
-) where
-    Stencil<P>: Weights,
-{
-    nodes.fill(0);
-    for ((&x, &y), &strength) in x.iter().zip(y).zip(strengths) {
-        Stencil::<P>::new(x, y, grid).for_each_share(grid, strength, |node, share| {
-            if let Some(modulus) = nodes.get_mut(node) {
-                *modulus = modulus.saturating_add(share.unsigned_abs());
-            }
-        });
-    }
-}
-
-fn deposit_signed<const P: usize>(
-    grid: Grid,
-    (x, y): (&[Fraction], &[Fraction]),
-    strengths: &[i32],
-    nodes: &mut [u32],
+    add: impl Fn(u32, i32) -> u32,
 ) where
     Stencil<P>: Weights,
 {
@@ -147,7 +132,7 @@ fn deposit_signed<const P: usize>(
     for ((&x, &y), &strength) in x.iter().zip(y).zip(strengths) {
         Stencil::<P>::new(x, y, grid).for_each_share(grid, strength, |node, share| {
             if let Some(sum) = nodes.get_mut(node) {
-                *sum = sum.wrapping_add_signed(share);
+                *sum = add(*sum, share);
             }
         });
     }

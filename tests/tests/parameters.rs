@@ -10,7 +10,7 @@ use meniscus_core::parameters::{
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::Position;
 use meniscus_tests::arrays::Arrays;
-use meniscus_tests::schemes::SPLIT;
+use meniscus_tests::schemes;
 use meniscus_tests::states::{scattered, with_ids};
 
 /// 2⁻⁴⁰
@@ -473,7 +473,7 @@ fn every_mesh_has_a_split_force() {
             let split = plain.with_p3m();
             assert_eq!(split.validate(), Ok(()), "{split:?}");
             // Physics is tested with these numbers.
-            assert_eq!(split, SPLIT.of(plain));
+            assert_eq!(split, schemes::SPLIT.of(plain));
         }
     }
     let finest = Parameters { side: 16.0, grid: 128, ..Parameters::PAPER };
