@@ -6,8 +6,8 @@ use meniscus_core::parameters::Parameters;
 use meniscus_tests::states::{scattered, with_ids};
 use std::sync::Mutex;
 
-/// 64 MiB of mesh.
-type Large = Engine<2048, 4096>;
+/// 64 MiB of mesh and 112 MiB of discs: more than this program has in code and debugging symbols.
+type Large = Engine<2048, 2_097_152>;
 
 static LARGE: Mutex<Large> = Mutex::new(Large::new());
 
