@@ -147,7 +147,9 @@ impl Cells {
     /// Cells for `reach`, `count` discs and room for `memory` cells; `None` if there would be so few a side that a cell
     /// were its own neighbour.
     fn new(reach: u32, count: usize, memory: usize) -> Option<Self> {
-        let fit = |width: u32| memory.isqrt().min(((1_u64 << 32) / u64::from(width.max(1))) as usize);
+        // More cells than that are empty, and looked at in vain.
+        let most = memory.min(8 * count).isqrt();
+        let fit = |width: u32| most.min(((1_u64 << 32) / u64::from(width.max(1))) as usize);
         // Half as wide leaves fewer discs to look at in vain, unless most cells are empty.
         let half = Self { per_side: fit(reach.div_ceil(2)), around: 2 };
         let whole = Self { per_side: fit(reach), around: 1 };
