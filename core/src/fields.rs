@@ -30,7 +30,7 @@ pub struct Fields {
     pub uniform_force: [f64; 2],
     /// Stiffness k of the trap, kBT/R0²; 0 for none.
     pub trap_stiffness: f64,
-    /// Centre of the trap, R0; 0 to the side of the box.
+    /// Centre of the trap, R0; 0 to the side of the box. Not looked at without a trap.
     pub trap_center: [f64; 2],
 }
 
@@ -38,14 +38,16 @@ impl Fields {
     /// No field.
     pub const NONE: Self = Self { uniform_force: [0.0; 2], trap_stiffness: 0.0, trap_center: [0.0; 2] };
 
-    /// Whether the numbers are finite, k ≥ 0, the centre in the box of side `side` (R0), and the largest force
-    /// component at most [`LARGEST_FIELD_FORCE`].
+    /// Whether the numbers are finite, k ≥ 0, the centre in the box of side `side` (R0) if there is a trap, and the
+    /// largest force component at most [`LARGEST_FIELD_FORCE`].
     #[must_use]
     pub fn is_valid(&self, side: f64) -> bool {
         let trap = self.trap_stiffness;
         let inside = self.trap_center.iter().all(|&center| center >= 0.0 && center <= side);
         let largest = |uniform: f64| uniform.abs() + trap * 0.5 * side;
-        trap >= 0.0 && inside && self.uniform_force.iter().all(|&force| largest(force) <= LARGEST_FIELD_FORCE)
+        trap >= 0.0
+            && (inside || trap == 0.0)
+            && self.uniform_force.iter().all(|&force| largest(force) <= LARGEST_FIELD_FORCE)
     }
 }
 

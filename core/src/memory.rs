@@ -40,9 +40,9 @@ pub struct Memory<'a> {
     pub displacement_y: &'a mut [i32],
     /// Capillary strength of each disc, unit 2⁻²⁰.
     pub strengths: &'a mut [i32],
-    /// Chains of the cell list.
+    /// The discs in the order of their cells.
     pub next: &'a mut [u32],
-    /// M × M: node masses, unit 2⁻²⁰ discs; then, the field being solved, the heads of the cell list.
+    /// M × M: node masses, unit 2⁻²⁰ discs; then, the field being solved, the ends of the cells.
     pub nodes: &'a mut [u32],
     /// M × M: the force field, kBT/R0.
     pub field: &'a mut [Complex32],

@@ -168,7 +168,8 @@ impl Parameters {
         seed: 1,
     };
 
-    /// The same: the one scheme without a number that must suit the mesh. [`Parameters::with_p3m`] makes it exact.
+    /// The same: the one scheme without a number that must suit the mesh. [`Parameters::with_p3m`] makes the force
+    /// accurate.
     pub const DEFAULT: Self = Self::PAPER;
 
     /// The same parameters with the capillary force split: order 5, α = 0.5/h, cut-off 7 h, which errs by about 10⁻⁴ of
@@ -264,7 +265,7 @@ impl Parameters {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first [`ParameterError`] found, in the order of the fields.
+    /// The first [`ParameterError`] found.
     pub fn validate(&self) -> Result<(), ParameterError> {
         let within = |value: f64, (least, most): (f64, f64)| value >= least && value <= most;
         if !(self.side.is_finite() && self.side > 0.0) {

@@ -3,7 +3,7 @@
 //! A strength f is a number of modulus at most [`LARGEST_STRENGTH`], of either sign, held in units of 2⁻²⁰; without
 //! anything said it is 1. Discs of f = 0 feel no capillary force and cause none. In a mixture V0·⟨f²⟩ takes the
 //! place of V0 where an ideal gas is taken to collapse: Jeans' time and wavenumber (Eqs. 7 and 22) are those of the
-//! variance of the vertical force per area, whatever the signs.
+//! mean square of the vertical force on a disc, whatever the signs.
 //!
 //! ```
 //! use meniscus::strengths::{Strengths, from_number};

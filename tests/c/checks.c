@@ -52,10 +52,9 @@ static MeniscusParameters small_split_box(void) {
     return parameters;
 }
 
-static MeniscusParameters small_paper_box(void) {
-    MeniscusParameters parameters = meniscus_paper_parameters();
-    parameters.side = 16.0;
-    parameters.grid = GRID;
+static MeniscusParameters small_box_with_trap(void) {
+    MeniscusParameters parameters = small_box();
+    parameters.trap_stiffness = 1.0;
     return parameters;
 }
 
@@ -194,8 +193,8 @@ static void parameters_out_of_range(void) {
     REFUSED(FIELDS, uniform_force_y, -1.1e8);
     REFUSED(FIELDS, trap_stiffness, -1.0);
     REFUSED(FIELDS, trap_stiffness, 1.3e7);
-    REFUSED(FIELDS, trap_center_x, 16.1);
-    REFUSED(FIELDS, trap_center_y, -0.1);
+    REFUSED_IN(small_box_with_trap(), FIELDS, trap_center_x, 16.1);
+    REFUSED_IN(small_box_with_trap(), FIELDS, trap_center_y, -0.1);
     REFUSED(GRID_MISMATCH, grid, 32);
     free(memory);
 }
@@ -209,9 +208,9 @@ static void parameters_that_do_not_fit_the_method(void) {
     REFUSED_IN(small_split_box(), CUTOFF_TOO_LARGE, cutoff, 8.0);
     REFUSED_IN(small_split_box(), INFLUENCE_OF_METHOD, influence, MENISCUS_INFLUENCE_PAPER);
     REFUSED_IN(small_split_box(), GRADIENT_OF_METHOD, gradient, MENISCUS_GRADIENT_DIFFERENCE2);
-    REFUSED_IN(small_paper_box(), INFLUENCE_OF_METHOD, influence, MENISCUS_INFLUENCE_OPTIMAL);
+    REFUSED_IN(small_box(), INFLUENCE_OF_METHOD, influence, MENISCUS_INFLUENCE_OPTIMAL);
     /* The mesh alone looks at neither splitting nor cut-off. */
-    MeniscusParameters parameters = small_paper_box();
+    MeniscusParameters parameters = small_box();
     parameters.splitting = parameters.cutoff = (double)NAN;
     STATUS(OK, set(engine, parameters));
     for (uint32_t order = 2; order <= 7; order++) {

@@ -146,6 +146,8 @@ fn where_the_sum_is_cut_makes_no_difference() {
         let tolerance = over_pairs(&[[0.0; 2]; 60], &ones(60), |_, _| PAIR_ERROR);
         assert_near(by_mesh(64), coarse, tolerance);
         assert_near(by_mesh(128), coarse, tolerance);
+        // A near part shorter than the distance below which forces no longer grow.
+        assert_near(by_mesh(1024), coarse, tolerance);
     }
 }
 

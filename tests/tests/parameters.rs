@@ -240,15 +240,29 @@ fn external_fields_out_of_range_are_refused_with_either_method() {
             p.fields.trap_stiffness = 3.125e6;
             p.fields.uniform_force = [0.0, 0.001];
         },
-        |p| p.fields.trap_center = [-f64::MIN_POSITIVE, 0.0],
-        |p| p.fields.trap_center = [0.0, 64.0_f64.next_up()],
-        |p| p.fields.trap_center = [f64::NAN, 0.0],
+        |p| {
+            p.fields.trap_stiffness = 1.0;
+            p.fields.trap_center = [-f64::MIN_POSITIVE, 0.0];
+        },
+        |p| {
+            p.fields.trap_stiffness = 1.0;
+            p.fields.trap_center = [0.0, 64.0_f64.next_up()];
+        },
+        |p| {
+            p.fields.trap_stiffness = 1.0;
+            p.fields.trap_center = [f64::NAN, 0.0];
+        },
     ];
-    let accepted: [Change; 5] = [
+    let accepted: [Change; 6] = [
+        // No trap, wherever it is.
+        |p| p.fields.trap_center = [65.0, f64::NAN],
         |p| p.fields.uniform_force = [1e8, -1e8],
         |p| p.fields.trap_stiffness = 3.125e6,
         |p| p.fields.trap_stiffness = -0.0,
-        |p| p.fields.trap_center = [0.0, 64.0],
+        |p| {
+            p.fields.trap_stiffness = 1.0;
+            p.fields.trap_center = [0.0, 64.0];
+        },
         |p| {
             p.fields.trap_stiffness = 1.5625e6;
             p.fields.uniform_force = [5e7, -5e7];

@@ -598,14 +598,15 @@ MeniscusStatus meniscus_fraction(double side,
 const char *meniscus_status_message(int32_t status);
 
 /**
- * Discs of the paper's Table I in a box of 64 R0 on a mesh of 64 nodes a side.
+ * Discs of the paper's Table I in a box of 64 R0, with the paper's force on a mesh of 64 nodes a side.
  */
 MeniscusParameters meniscus_default_parameters(void);
 
 /**
- * The same with the force and the mesh of the paper: all of the capillary force on the mesh.
+ * The same parameters with the capillary force split on their mesh: order 5, splitting 0.5/h, cut-off 7 h, which errs
+ * by about 1e-4 of the root mean square force of discs at random. As given if a choice in them does not exist.
  */
-MeniscusParameters meniscus_paper_parameters(void);
+MeniscusParameters meniscus_with_p3m(MeniscusParameters parameters);
 
 #ifdef __cplusplus
 }  // extern "C"

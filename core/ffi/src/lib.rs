@@ -37,7 +37,7 @@ pub use status::{MeniscusStatus, meniscus_status_message};
 pub use values::{
     MENISCUS_STRENGTH_ONE, MeniscusAssignment, MeniscusClock, MeniscusDigest, MeniscusGradient,
     MeniscusInfluence, MeniscusMethod, MeniscusNoise, MeniscusParameters, MeniscusStep,
-    meniscus_default_parameters, meniscus_paper_parameters,
+    meniscus_default_parameters, meniscus_with_p3m,
 };
 
 use core::ffi::{c_char, c_void};

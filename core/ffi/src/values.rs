@@ -235,16 +235,18 @@ impl TryFrom<&MeniscusParameters> for Parameters {
     }
 }
 
-/// Discs of the paper's Table I in a box of 64 R0 on a mesh of 64 nodes a side.
+/// Discs of the paper's Table I in a box of 64 R0, with the paper's force on a mesh of 64 nodes a side.
 #[unsafe(no_mangle)]
 pub extern "C" fn meniscus_default_parameters() -> MeniscusParameters {
     MeniscusParameters::from(&Parameters::DEFAULT)
 }
 
-/// The same with the force and the mesh of the paper: all of the capillary force on the mesh.
+/// The same parameters with the capillary force split on their mesh: order 5, splitting 0.5/h, cut-off 7 h, which errs
+/// by about 1e-4 of the root mean square force of discs at random. As given if a choice in them does not exist.
 #[unsafe(no_mangle)]
-pub extern "C" fn meniscus_paper_parameters() -> MeniscusParameters {
-    MeniscusParameters::from(&Parameters::PAPER)
+pub extern "C" fn meniscus_with_p3m(parameters: MeniscusParameters) -> MeniscusParameters {
+    Parameters::try_from(&parameters)
+        .map_or(parameters, |parameters| MeniscusParameters::from(&parameters.with_p3m()))
 }
 
 /// Where a run stands.

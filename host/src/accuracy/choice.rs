@@ -60,7 +60,7 @@ impl Choice {
 /// [`cost`].
 ///
 /// Grids are powers of two from 16 to 4096 with a spacing that [`meniscus_core::parameters`] accepts, orders 2 to 7;
-/// splitting and cut-off come from ladders of 2 % and have four digits, αh ≤ 1 and r_c < L/2. What is given is kept
+/// splitting and cut-off come from ladders of 2 % and have four digits, αh ≤ 0.7 and r_c < L/2. What is given is kept
 /// as it is, and only its accuracy checked. Of schemes within 2 % of the least cost the simplest is taken. Without
 /// attraction every scheme is exact, and a small one is taken.
 ///

@@ -6,7 +6,7 @@ use meniscus_core::parameters::Assignment;
 
 /// Wave numbers are sampled on at most this many points an axis: the sum depends on M only where the mesh is smaller.
 const MOST_POINTS: usize = 64;
-/// Aliases of a wave number along an axis: itself and its neighbours. With αh ≤ 1 the next has a factor e⁻²² or less.
+/// Aliases of a wave number along an axis: itself and its neighbours. With αh ≤ 0.7 the next has a factor e⁻⁴⁵ or less.
 const ALIASES: [f64; 3] = [0.0, -1.0, 1.0];
 /// Aliases on either side that count in the sum of windows.
 const WINDOW_ALIASES: i32 = 4;

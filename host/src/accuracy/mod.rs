@@ -7,8 +7,8 @@
 //! numbers, so every machine chooses the same.
 //!
 //! The estimate is that of uncorrelated discs, the state a run starts from, relative to their root mean square force
-//! ([`reference_force`], a closed form of which the terms stand there). Of random starts the measured error is 0.6 to
-//! 1.15 times the estimate, see `tests/accuracy-of-the-split-force.md`. In clusters the error grows as the root of the
+//! ([`reference_force`], a closed form of which the terms stand there). Of random starts the measured error is 0.64 to
+//! 1.13 times the estimate, see `tests/accuracy-of-the-split-force.md`. In clusters the error grows as the root of the
 //! local density, but the force faster: relative to the root mean square force of the clusters themselves it is 3 to 60
 //! times smaller, so that the estimate is an upper bound; relative to that of the random start it is up to 6 times
 //! larger.
@@ -41,6 +41,8 @@ mod near_error;
 mod reference;
 mod refusal;
 mod search;
+
+pub(crate) use search::rounded_down;
 
 pub use choice::{ACCURACY_RANGE, Choice, Given, SAFETY, choose};
 pub use cost::{Cost, cost};

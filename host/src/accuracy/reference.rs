@@ -21,7 +21,7 @@ const NEGLIGIBLE_SCREENING: f64 = 1e-8;
 /// without that least distance the integral would diverge logarithmically. It is the force of discs
 /// placed at random without overlap, as `start.kind = "random"` does. In a plane
 /// I = 2π·P(2κ), P(x) = ∫ₓ^∞ y·K₁(y)² dy = (x²/2)[K₀(x)K₂(x) − K₁(x)²]. In a periodic box with λ above L/10 the images
-/// count, see [`periodic`].
+/// count, see `periodic`.
 ///
 /// 0 without attraction, without strength or without discs.
 #[must_use]

@@ -1,6 +1,6 @@
 //! Why an accuracy is not to be had, and what is.
 
-use super::{ACCURACY_RANGE, Choice, Given, Scheme};
+use super::{ACCURACY_RANGE, Choice, Given, SAFETY, Scheme};
 use crate::configuration::assignment_word;
 use core::fmt;
 
@@ -44,8 +44,8 @@ impl fmt::Display for Refusal {
         let with = if keys.is_empty() { String::new() } else { format!(" with the given {keys}") };
         write!(
             formatter,
-            "force.accuracy = {accuracy:?} cannot be reached{with}: the smallest error is {:.1e} of the root mean \
-             square force, at {}",
+            "force.accuracy = {accuracy:?} cannot be reached{with}: the smallest estimated error, {:.1e} of the root \
+             mean square force at {}, is above {SAFETY} of that",
             best.estimate,
             written(&best.scheme),
         )?;

@@ -19,7 +19,7 @@ const LARGEST_CUTOFF_OF_SIDE: f64 = 0.499;
 const DIGITS: i32 = 4;
 
 /// `value` rounded down to so many significant decimal digits, as the number that is written with them.
-pub(super) fn rounded_down(value: f64, digits: i32) -> f64 {
+pub(crate) fn rounded_down(value: f64, digits: i32) -> f64 {
     rounded(value, digits, libm::floor)
 }
 

@@ -89,7 +89,7 @@ fn announce(simulation: &Simulation, directory: &Path) {
             Strengths::Pattern(_) => "the configuration",
             Strengths::OfFile(_) => "the start's file",
         };
-        say(&format!("capillary strengths f of {whose}, ⟨f²⟩ = {}", strengths.mean_square(count)));
+        say(&format!("capillary strengths f of {whose}, <f^2> = {}", strengths.mean_square(count)));
     }
     if let Some(jeans) = configuration.jeans_time() {
         let seconds = configuration.seconds_per_time_unit().map(|unit| format!(" = {:.0} s", jeans * unit));

@@ -7,6 +7,8 @@ use meniscus_core::parameters::{
     LARGEST_CAPILLARY_STRENGTH, LARGEST_SPLITTING_OF_SPACING, ParameterError, SPACING_RANGE,
 };
 
+use crate::accuracy::rounded_down;
+
 use super::entries::Entries;
 use super::error::ConfigurationError;
 use super::keys::{key, plain};
@@ -100,7 +102,7 @@ pub(super) fn check_parameters(
             let spacing = system.side / configuration.mesh.grid as f64;
             let found =
                 format!("{} with a mesh spacing of {} R0", plain(parameters.splitting), rounded(spacing));
-            let most = rounded(LARGEST_SPLITTING_OF_SPACING / spacing);
+            let most = rounded_down(LARGEST_SPLITTING_OF_SPACING / spacing, 6);
             refusal(
                 entries,
                 "force.splitting",
@@ -129,7 +131,8 @@ pub(super) fn check_parameters(
 /// External fields that go out of their range together, or with the box.
 fn of_fields(fields: &Fields, side: f64, entries: &Entries) -> ConfigurationError {
     let Fields { uniform_force: [x, y], trap_stiffness, trap_center } = *fields;
-    if let Some(center) = trap_center.into_iter().find(|center| !(*center >= 0.0 && *center <= side)) {
+    let outside = trap_center.into_iter().find(|center| !(*center >= 0.0 && *center <= side));
+    if let Some(center) = outside.filter(|_| trap_stiffness > 0.0) {
         let expected = format!("a centre in the box, 0 to {} R0", rounded(side));
         return refusal(entries, "field.trap_center", plain(center), expected);
     }

@@ -153,7 +153,7 @@ const STRENGTHS_HELP: &str =
 /// Default of strengths in words.
 const STRENGTHS_DEFAULT: &str = "[1], or those of the start's file";
 /// The unit of times in words.
-const TIMES: &str = "Jeans' times T, or R0^2/D if V0 = 0";
+const TIMES: &str = "Jeans' times T, or R0^2/D if V0 or all strengths are 0";
 
 const METHOD_WORDS: &[&str] = &names::method_words();
 const ASSIGNMENT_WORDS: &[&str] = &words(&names::ASSIGNMENTS);
@@ -436,7 +436,7 @@ pub const KEYS: &[Key] = &[
         name: "time.until",
         kind: FROM_ZERO,
         unit: TIMES,
-        default: "5 T, or 10 R0^2/D if V0 = 0",
+        default: "5 T, or 10 R0^2/D if there is no T",
         help: "End of the run",
     },
     Key {

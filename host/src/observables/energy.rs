@@ -9,6 +9,9 @@
 //! far the largest part once λ exceeds L. For λ = ∞ (and a λ whose square is no number) the sum has no value: a
 //! neutralising background is put in, which makes the mean over the positions of a pair zero.
 //!
+//! External fields are not in it. The last digits of the capillary energy may differ between platforms, whose sines go into
+//! the transform; no state depends on them.
+//!
 //! **Repulsive**: 4[(2/d)¹² − (2/d)⁶ + 1/4] of every pair closer than d_c = 2·2^(1/6) R0 (Eq. 15).
 //!
 //! Closer than [`SMALLEST_DISTANCE`] both go on as the straight lines whose slopes are their forces there, as forces no

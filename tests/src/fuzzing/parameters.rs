@@ -84,7 +84,9 @@ fn fields_in_range(parameters: &Parameters) -> bool {
     let Fields { uniform_force, trap_stiffness, trap_center } = parameters.fields;
     let inside = |center: f64| (0.0..=parameters.side).contains(&center);
     let weak = |force: f64| force.abs() + trap_stiffness * 0.5 * parameters.side <= LARGEST_FIELD_FORCE;
-    trap_stiffness >= 0.0 && trap_center.into_iter().all(inside) && uniform_force.into_iter().all(weak)
+    trap_stiffness >= 0.0
+        && (trap_stiffness == 0.0 || trap_center.into_iter().all(inside))
+        && uniform_force.into_iter().all(weak)
 }
 
 /// A field is finite everywhere, and that of valid parameters at most the largest.

@@ -4,6 +4,7 @@
 //! less for pairs.
 
 use meniscus_core::parameters::GRID_RANGE;
+use meniscus_core::repulsion::SMALLEST_DISTANCE;
 
 /// αh, splitting times mesh spacing. With the ten nodes an axis of `far` the forces that energy differences give are off
 /// by about 1e-7 rms.
@@ -37,7 +38,8 @@ impl Split {
     pub(super) fn of_mesh(side: f64, nodes: usize) -> Self {
         let nodes = nodes.clamp(FEWEST_NODES, GRID_RANGE.1).next_power_of_two();
         let splitting = SPLITTING_OF_SPACING * nodes as f64 / side;
-        Self { nodes, splitting, cutoff: REACH / splitting }
+        // The straight line below the smallest distance belongs to the near part, however fine the mesh.
+        Self { nodes, splitting, cutoff: (REACH / splitting).max(SMALLEST_DISTANCE) }
     }
 
     /// The fastest for `particles` discs that form a single cluster, as they do in the end.
