@@ -153,9 +153,6 @@ pub fn gather(
     by_order!(assignment, gather_equal(grid, (x, y), field, force_x.iter_mut().zip(force_y)));
 }
 
-/// What a weight of unit 2⁻²⁰ times a force in kBT/R0 is, in units of force.
-const QUANTA_PER_WEIGHT: f32 = FORCE_UNITS / DISC as f32;
-
 fn gather_equal<'a, const P: usize>(
     grid: Grid,
     (x, y): (&[Fraction], &[Fraction]),
@@ -165,15 +162,9 @@ fn gather_equal<'a, const P: usize>(
     Stencil<P>: Weights,
 {
     for ((&x, &y), (force_x, force_y)) in x.iter().zip(y).zip(forces) {
-        let (mut sum_x, mut sum_y) = (0.0_f32, 0.0_f32);
-        Stencil::<P>::new(x, y, grid).for_each(grid, |node, weight| {
-            if let Some(value) = field.get(node) {
-                sum_x += weight as f32 * value.re;
-                sum_y += weight as f32 * value.im;
-            }
-        });
-        *force_x = round_half_even(sum_x * QUANTA_PER_WEIGHT);
-        *force_y = round_half_even(sum_y * QUANTA_PER_WEIGHT);
+        let mut sum = WeightedSum::default();
+        Stencil::<P>::new(x, y, grid).for_each(grid, |node, weight| sum.add(weight as f32, field.get(node)));
+        (*force_x, *force_y) = sum.quantised();
     }
 }
 
@@ -186,10 +177,10 @@ pub fn gather_strengths(
     field: &[Complex32],
     (force_x, force_y): (&mut [i64], &mut [i64]),
 ) {
-    by_order!(assignment, gather_signed(grid, (x, y), strengths, field, force_x.iter_mut().zip(force_y)));
+    by_order!(assignment, gather_shares(grid, (x, y), strengths, field, force_x.iter_mut().zip(force_y)));
 }
 
-fn gather_signed<'a, const P: usize>(
+fn gather_shares<'a, const P: usize>(
     grid: Grid,
     (x, y): (&[Fraction], &[Fraction]),
     strengths: &[i32],
@@ -199,14 +190,32 @@ fn gather_signed<'a, const P: usize>(
     Stencil<P>: Weights,
 {
     for (((&x, &y), &strength), (force_x, force_y)) in x.iter().zip(y).zip(strengths).zip(forces) {
-        let (mut sum_x, mut sum_y) = (0.0_f32, 0.0_f32);
-        Stencil::<P>::new(x, y, grid).for_each_share(grid, strength, |node, share| {
-            if let Some(value) = field.get(node) {
-                sum_x += share as f32 * value.re;
-                sum_y += share as f32 * value.im;
-            }
-        });
-        *force_x = round_half_even(sum_x * QUANTA_PER_WEIGHT);
-        *force_y = round_half_even(sum_y * QUANTA_PER_WEIGHT);
+        let mut sum = WeightedSum::default();
+        let stencil = Stencil::<P>::new(x, y, grid);
+        stencil.for_each_share(grid, strength, |node, share| sum.add(share as f32, field.get(node)));
+        (*force_x, *force_y) = sum.quantised();
+    }
+}
+
+/// Weights of unit 2⁻²⁰ times forces in kBT/R0, summed.
+#[derive(Default)]
+struct WeightedSum {
+    x: f32,
+    y: f32,
+}
+
+impl WeightedSum {
+    #[inline]
+    fn add(&mut self, weight: f32, force: Option<&Complex32>) {
+        if let Some(force) = force {
+            self.x += weight * force.re;
+            self.y += weight * force.im;
+        }
+    }
+
+    /// In units of 2⁻²⁴ kBT/R0.
+    fn quantised(&self) -> (i64, i64) {
+        const QUANTA_PER_WEIGHT: f32 = FORCE_UNITS / DISC as f32;
+        (round_half_even(self.x * QUANTA_PER_WEIGHT), round_half_even(self.y * QUANTA_PER_WEIGHT))
     }
 }

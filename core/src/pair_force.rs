@@ -76,6 +76,12 @@ impl PairForce {
         }
     }
 
+    /// The repulsion alone, in a box of side `side` (R0) above twice its cut-off.
+    #[must_use]
+    pub fn repulsion(side: f64) -> Self {
+        Self::new(&Parameters { side, capillary_strength: 0.0, ..Parameters::PAPER })
+    }
+
     /// For statics; of no use before it is replaced.
     pub(crate) const fn blank() -> Self {
         Self {
@@ -108,17 +114,36 @@ impl PairForce {
         strengths: f32,
         table: &[Segment],
     ) -> Option<(i64, i64)> {
-        let pair = Pair { separation, first_is_lower };
-        pair.force(self.unit, self.reach_squared, |squared| {
-            let repulsion =
-                if squared < self.repulsion_squared { repulsion::force_over_distance(squared) } else { 0.0 };
-            if squared < self.near_squared {
-                let attraction = self.strength * strengths / squared;
-                repulsion - attraction * near_part::evaluate(table, squared)
-            } else {
-                repulsion
-            }
-        })
+        const SMALLEST_SQUARED: f32 = (SMALLEST_DISTANCE * SMALLEST_DISTANCE) as f32;
+        let (x, y) = (separation.x as f32 * self.unit, separation.y as f32 * self.unit);
+        let squared = x * x + y * y;
+        if squared >= self.reach_squared {
+            return None;
+        }
+        if squared >= SMALLEST_SQUARED {
+            let factor = self.over_distance(squared, strengths, table);
+            return Some((quantise(factor * x), quantise(factor * y)));
+        }
+        let force = self.over_distance(SMALLEST_SQUARED, strengths, table) * SMALLEST_DISTANCE as f32;
+        let distance = libm::sqrtf(squared);
+        if distance > 0.0 {
+            return Some((quantise(force * (x / distance)), quantise(force * (y / distance))));
+        }
+        let along_x = quantise(force);
+        Some((if first_is_lower { along_x } else { -along_x }, 0))
+    }
+
+    /// F(d)/d from d² (R0²), kBT/R0².
+    #[inline]
+    fn over_distance(&self, squared: f32, strengths: f32, table: &[Segment]) -> f32 {
+        let repulsion =
+            if squared < self.repulsion_squared { repulsion::force_over_distance(squared) } else { 0.0 };
+        if squared < self.near_squared {
+            let attraction = self.strength * strengths / squared;
+            repulsion - attraction * near_part::evaluate(table, squared)
+        } else {
+            repulsion
+        }
     }
 }
 
@@ -137,44 +162,6 @@ pub const fn near_cutoff(parameters: &Parameters) -> f64 {
 pub fn product_of_strengths(first: i32, second: i32) -> f32 {
     const UNIT: f32 = 1.0 / (1_u64 << 40) as f32;
     (i64::from(first) * i64::from(second)) as f32 * UNIT
-}
-
-/// Two discs.
-pub(crate) struct Pair {
-    /// First minus second.
-    pub(crate) separation: Separation,
-    /// Whether the first disc has the lower id.
-    pub(crate) first_is_lower: bool,
-}
-
-impl Pair {
-    /// The force on the first disc from F(d)/d (kBT/R0²) as a function of d² (R0²); `None` from `reach_squared` (R0²)
-    /// on. `unit` is that of the separation, R0.
-    #[inline]
-    pub(crate) fn force(
-        &self,
-        unit: f32,
-        reach_squared: f32,
-        force_over_distance: impl Fn(f32) -> f32,
-    ) -> Option<(i64, i64)> {
-        const SMALLEST_SQUARED: f32 = (SMALLEST_DISTANCE * SMALLEST_DISTANCE) as f32;
-        let (x, y) = (self.separation.x as f32 * unit, self.separation.y as f32 * unit);
-        let squared = x * x + y * y;
-        if squared >= reach_squared {
-            return None;
-        }
-        if squared >= SMALLEST_SQUARED {
-            let factor = force_over_distance(squared);
-            return Some((quantise(factor * x), quantise(factor * y)));
-        }
-        let force = force_over_distance(SMALLEST_SQUARED) * SMALLEST_DISTANCE as f32;
-        let distance = libm::sqrtf(squared);
-        if distance > 0.0 {
-            return Some((quantise(force * (x / distance)), quantise(force * (y / distance))));
-        }
-        let along_x = quantise(force);
-        Some((if self.first_is_lower { along_x } else { -along_x }, 0))
-    }
 }
 
 fn quantise(force: f32) -> i64 {

@@ -17,7 +17,6 @@ use meniscus_core::near_part::{fill_table, table_length};
 use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
 use meniscus_core::pair_force::PairForce;
 use meniscus_core::parameters::{Assignment, Influence, Method, Noise, Parameters};
-use meniscus_core::repulsion::Repulsion;
 use meniscus_core::torus::{Fraction, Position, Torus};
 use meniscus_core::transform::{AnySize, Complex32};
 use std::hint::black_box;
@@ -135,7 +134,7 @@ fn mesh_stages(criterion: &mut Criterion) {
 }
 
 fn particle_stages(criterion: &mut Criterion) {
-    let repulsion = Repulsion::new(SIDE);
+    let repulsion = PairForce::repulsion(SIDE);
     for (name, discs) in states() {
         let (mut x, mut y) = split(&discs);
         let (mut heads, mut next) = (vec![0; GRID * GRID], vec![0; COUNT]);
@@ -143,7 +142,8 @@ fn particle_stages(criterion: &mut Criterion) {
             bencher.iter(|| {
                 let mut sum = 0_i64;
                 for_each_pair((&x, &y), repulsion.reach(), &mut heads, &mut next, |_, _, separation| {
-                    let (along_x, _) = repulsion.force(separation, true).unwrap_or_default();
+                    let (along_x, _) =
+                        repulsion.of(separation, true, PairForce::EQUAL, &[]).unwrap_or_default();
                     sum = sum.wrapping_add(along_x);
                 });
                 sum

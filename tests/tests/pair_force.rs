@@ -6,7 +6,7 @@ use meniscus_core::cells::Separation;
 use meniscus_core::near_part::{Segment, fill_table, table_length};
 use meniscus_core::pair_force::{PairForce, near_cutoff, product_of_strengths};
 use meniscus_core::parameters::Parameters;
-use meniscus_core::repulsion::{CUTOFF, Repulsion, SMALLEST_DISTANCE};
+use meniscus_core::repulsion::{CUTOFF, SMALLEST_DISTANCE};
 use meniscus_core::units::force_from_units;
 use meniscus_tests::reference::wca;
 use meniscus_tests::schemes::{PAPER, SPLIT};
@@ -95,7 +95,7 @@ proptest! {
         first_is_lower in any::<bool>(),
     ) {
         let separation = Separation { x, y };
-        let expected = Repulsion::new(side).force(separation, first_is_lower);
+        let expected = PairForce::repulsion(side).of(separation, first_is_lower, PairForce::EQUAL, &[]);
         let all_on_the_mesh = Pairs::new(PAPER.of(parameters(side)));
         let no_attraction = Pairs::new(SPLIT.of(Parameters { capillary_strength: 0.0, ..parameters(side) }));
         for pairs in [all_on_the_mesh, no_attraction] {

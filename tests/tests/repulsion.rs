@@ -2,8 +2,9 @@
 
 use meniscus_core::cells::Separation;
 use meniscus_core::engine::Engine;
+use meniscus_core::pair_force::PairForce;
 use meniscus_core::parameters::Parameters;
-use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, Repulsion, SMALLEST_DISTANCE};
+use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, SMALLEST_DISTANCE};
 use meniscus_core::torus::Position;
 use meniscus_core::units::{FORCE_UNITS, force_from_units};
 use meniscus_tests::reference::wca;
@@ -56,19 +57,19 @@ proptest! {
         y in components(),
         first_is_lower in any::<bool>(),
     ) {
-        let repulsion = Repulsion::new(side);
-        let there = repulsion.force(Separation { x, y }, first_is_lower);
-        let back = repulsion.force(Separation { x: -x, y: -y }, !first_is_lower);
+        let repulsion = PairForce::repulsion(side);
+        let there = repulsion.of(Separation { x, y }, first_is_lower, PairForce::EQUAL, &[]);
+        let back = repulsion.of(Separation { x: -x, y: -y }, !first_is_lower, PairForce::EQUAL, &[]);
         prop_assert_eq!(there, back.map(|(x, y)| (-x, -y)));
     }
 
     #[test]
     fn a_pair_force_turns_and_mirrors_bit_for_bit(side in sides(), x in components(), y in components()) {
         prop_assume!((x, y) != (0, 0));
-        let repulsion = Repulsion::new(side);
-        let force = repulsion.force(Separation { x, y }, true);
-        let turned = repulsion.force(Separation { x: -y, y: x }, true);
-        let mirrored = repulsion.force(Separation { x: -x, y }, true);
+        let repulsion = PairForce::repulsion(side);
+        let force = repulsion.of(Separation { x, y }, true, PairForce::EQUAL, &[]);
+        let turned = repulsion.of(Separation { x: -y, y: x }, true, PairForce::EQUAL, &[]);
+        let mirrored = repulsion.of(Separation { x: -x, y }, true, PairForce::EQUAL, &[]);
         prop_assert_eq!(turned, force.map(|(x, y)| (-y, x)));
         prop_assert_eq!(mirrored, force.map(|(x, y)| (-x, y)));
     }
@@ -88,7 +89,7 @@ proptest! {
         let distance = libm::hypot(dx, dy);
         // The reference gives the force on a disc at the origin due to one at (x, y).
         let [x, y] = wca::pair_force(-dx, -dy);
-        let (force_x, force_y) = Repulsion::new(side).force(separation, true).unwrap_or((0, 0));
+        let (force_x, force_y) = PairForce::repulsion(side).of(separation, true, PairForce::EQUAL, &[]).unwrap_or((0, 0));
         let off = libm::hypot(force_from_units(force_x) - x, force_from_units(force_y) - y);
         let held = distance.max(SMALLEST_DISTANCE);
         let sixth = libm::pow(2.0 / held, 6.0);
@@ -98,7 +99,7 @@ proptest! {
 
     #[test]
     fn no_pair_force_exceeds_its_bound(side in sides(), x in components(), y in components()) {
-        if let Some((x, y)) = Repulsion::new(side).force(Separation { x, y }, true) {
+        if let Some((x, y)) = PairForce::repulsion(side).of(Separation { x, y }, true, PairForce::EQUAL, &[]) {
             let bound = (LARGEST_FORCE * f64::from(FORCE_UNITS)) as u128;
             let square = |x: i64| u128::from(x.unsigned_abs()) * u128::from(x.unsigned_abs());
             prop_assert!(square(x) + square(y) <= bound * bound);

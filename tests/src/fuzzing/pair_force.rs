@@ -4,7 +4,8 @@ use super::bytes::Bytes;
 use crate::reference::wca;
 use crate::tolerances::{FORCE_QUANTUM, PAIR_FORCE};
 use meniscus_core::cells::Separation;
-use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, Repulsion, SMALLEST_DISTANCE};
+use meniscus_core::pair_force::PairForce;
+use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, SMALLEST_DISTANCE};
 use meniscus_core::torus::{LARGEST_SIDE, Torus};
 use meniscus_core::units::force_from_units;
 
@@ -18,7 +19,7 @@ pub fn pair_force(data: &[u8]) {
     if side <= 2.0 * CUTOFF {
         return;
     }
-    let repulsion = Repulsion::new(side);
+    let repulsion = PairForce::repulsion(side);
     while !bytes.is_empty() {
         let shift = u32::from(bytes.byte() % 32);
         let (x, y) = (bytes.bits_32() as i32 >> shift, bytes.bits_32() as i32 >> shift);
@@ -26,11 +27,11 @@ pub fn pair_force(data: &[u8]) {
     }
 }
 
-fn check(torus: &Torus, repulsion: &Repulsion, separation: Separation, first_is_lower: bool) {
-    let force = repulsion.force(separation, first_is_lower);
+fn check(torus: &Torus, repulsion: &PairForce, separation: Separation, first_is_lower: bool) {
+    let force = repulsion.of(separation, first_is_lower, PairForce::EQUAL, &[]);
     let Separation { x, y } = separation;
     let exchanged = Separation { x: x.wrapping_neg(), y: y.wrapping_neg() };
-    let negative = repulsion.force(exchanged, !first_is_lower).map(|(x, y)| (-x, -y));
+    let negative = repulsion.of(exchanged, !first_is_lower, PairForce::EQUAL, &[]).map(|(x, y)| (-x, -y));
     assert_eq!(force, negative, "{separation:?} in {torus:?}");
 
     let (length_x, length_y) = (torus.length(x), torus.length(y));

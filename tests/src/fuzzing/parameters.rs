@@ -10,7 +10,7 @@ use meniscus_core::parameters::{
     LARGEST_SEED, LARGEST_SPLITTING_OF_SPACING, Method, Noise, Parameters, SMALLEST_CAPILLARY_LENGTH,
     SMALLEST_CUTOFF, SPACING_RANGE, SPLITTING_RANGE, STEP_RANGE,
 };
-use meniscus_core::repulsion::{CUTOFF, Repulsion};
+use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::{Fraction, LARGEST_SIDE, SMALLEST_SIDE, Torus};
 use meniscus_core::units::TIME_UNITS;
 
@@ -23,13 +23,13 @@ pub fn parameters(data: &[u8]) {
     assert_eq!(valid.is_ok(), in_range(&parameters), "{valid:?} of {parameters:?}");
     check_torus(parameters.side, &mut bytes);
     check_limits(&parameters, bytes.bits_64());
-    let repulsion = Repulsion::new(parameters.side);
     check_field(&parameters, &mut bytes);
     check_optimal(&parameters, &mut bytes);
     let pairs = PairForce::new(&parameters);
     if valid.is_ok() {
         assert!(pairs.reach() < 1 << 31, "{parameters:?}");
-        let reach = f64::from(repulsion.reach()) * (parameters.side / 4_294_967_296.0);
+        let reach =
+            f64::from(PairForce::repulsion(parameters.side).reach()) * (parameters.side / 4_294_967_296.0);
         assert!(reach >= CUTOFF * (1.0 - f64::EPSILON), "{reach} in {parameters:?}");
     }
 }
