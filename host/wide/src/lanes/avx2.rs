@@ -1,0 +1,269 @@
+//! AVX2: eight numbers.
+
+use super::Lanes;
+use core::arch::x86_64::*;
+
+/// Eight numbers in a register of 256 bits.
+#[derive(Clone, Copy)]
+pub struct Avx2(());
+
+impl Avx2 {
+    /// The registers.
+    ///
+    /// # Safety
+    /// The processor must have AVX2.
+    #[inline(always)]
+    pub unsafe fn assume() -> Self {
+        Self(())
+    }
+}
+
+const WIDTH: usize = 8;
+
+/// Up to the width of elements, zeros after them.
+#[cold]
+fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
+    let mut array = [T::default(); WIDTH];
+    for (place, &value) in array.iter_mut().zip(from) {
+        *place = value;
+    }
+    array
+}
+
+#[cold]
+fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
+    for (place, value) in to.iter_mut().zip(values) {
+        *place = value;
+    }
+}
+
+/// Methods that are one expression of instructions.
+macro_rules! instructions {
+    ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
+        #[inline(always)]
+        fn $name(self, $($argument: $type),*) -> $result {
+            // SAFETY: `self` exists only where the processor has the instructions; none of these reads memory.
+            unsafe { $value }
+        }
+    )* };
+}
+
+impl Lanes for Avx2 {
+    const WIDTH: usize = WIDTH;
+    type F32 = __m256;
+    type U32 = __m256i;
+    type U64 = [__m256i; 2];
+    type Mask = __m256i;
+
+    instructions! {
+        splat(value: f32) -> __m256 = _mm256_set1_ps(value);
+        add(a: __m256, b: __m256) -> __m256 = _mm256_add_ps(a, b);
+        sub(a: __m256, b: __m256) -> __m256 = _mm256_sub_ps(a, b);
+        mul(a: __m256, b: __m256) -> __m256 = _mm256_mul_ps(a, b);
+        div(a: __m256, b: __m256) -> __m256 = _mm256_div_ps(a, b);
+        sqrt(a: __m256) -> __m256 = _mm256_sqrt_ps(a);
+        less(a: __m256, b: __m256) -> __m256i = _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b));
+        select(mask: __m256i, yes: __m256, no: __m256) -> __m256 =
+            _mm256_blendv_ps(no, yes, _mm256_castsi256_ps(mask));
+        splat_u32(value: u32) -> __m256i = _mm256_set1_epi32(value as i32);
+        add_u32(a: __m256i, b: __m256i) -> __m256i = _mm256_add_epi32(a, b);
+        sub_u32(a: __m256i, b: __m256i) -> __m256i = _mm256_sub_epi32(a, b);
+        mul_u32(a: __m256i, b: __m256i) -> __m256i = _mm256_mullo_epi32(a, b);
+        and(a: __m256i, b: __m256i) -> __m256i = _mm256_and_si256(a, b);
+        or(a: __m256i, b: __m256i) -> __m256i = _mm256_or_si256(a, b);
+        xor(a: __m256i, b: __m256i) -> __m256i = _mm256_xor_si256(a, b);
+        shl(a: __m256i, bits: u32) -> __m256i = _mm256_sll_epi32(a, _mm_cvtsi32_si128(bits as i32));
+        shr(a: __m256i, bits: u32) -> __m256i = _mm256_srl_epi32(a, _mm_cvtsi32_si128(bits as i32));
+        sar(a: __m256i, bits: u32) -> __m256i = _mm256_sra_epi32(a, _mm_cvtsi32_si128(bits as i32));
+        equal(a: __m256i, b: __m256i) -> __m256i = _mm256_cmpeq_epi32(a, b);
+        less_i32(a: __m256i, b: __m256i) -> __m256i = _mm256_cmpgt_epi32(b, a);
+        select_u32(mask: __m256i, yes: __m256i, no: __m256i) -> __m256i = _mm256_blendv_epi8(no, yes, mask);
+        both(a: __m256i, b: __m256i) -> __m256i = _mm256_and_si256(a, b);
+        either(a: __m256i, b: __m256i) -> __m256i = _mm256_or_si256(a, b);
+        bits(mask: __m256i) -> u32 = _mm256_movemask_ps(_mm256_castsi256_ps(mask)) as u32;
+        to_bits(a: __m256) -> __m256i = _mm256_castps_si256(a);
+        of_bits(a: __m256i) -> __m256 = _mm256_castsi256_ps(a);
+        of_i32(a: __m256i) -> __m256 = _mm256_cvtepi32_ps(a);
+        round(a: __m256) -> __m256i = _mm256_cvtps_epi32(a);
+        splat_u64(value: u64) -> [__m256i; 2] = [_mm256_set1_epi64x(value as i64); 2];
+        add_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
+            [_mm256_add_epi64(a[0], b[0]), _mm256_add_epi64(a[1], b[1])];
+        sub_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
+            [_mm256_sub_epi64(a[0], b[0]), _mm256_sub_epi64(a[1], b[1])];
+        xor_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
+            [_mm256_xor_si256(a[0], b[0]), _mm256_xor_si256(a[1], b[1])];
+        widen_i32(a: __m256i) -> [__m256i; 2] = [
+            _mm256_cvtepi32_epi64(_mm256_castsi256_si128(a)),
+            _mm256_cvtepi32_epi64(_mm256_extracti128_si256::<1>(a)),
+        ];
+    }
+
+    #[inline(always)]
+    fn product(self, a: __m256i, b: __m256i) -> [__m256i; 2] {
+        let (a, b) = (self.widen_i32(a), self.widen_i32(b));
+        // The upper halves are not looked at.
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe { [_mm256_mul_epu32(a[0], b[0]), _mm256_mul_epu32(a[1], b[1])] }
+    }
+
+    #[inline(always)]
+    fn mul_u64(self, a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] {
+        let multiply = |a, b| {
+            // SAFETY: `self` says that AVX2 is there.
+            unsafe {
+                let crossed = _mm256_add_epi64(
+                    _mm256_mul_epu32(_mm256_srli_epi64::<32>(a), b),
+                    _mm256_mul_epu32(a, _mm256_srli_epi64::<32>(b)),
+                );
+                _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64::<32>(crossed))
+            }
+        };
+        [multiply(a[0], b[0]), multiply(a[1], b[1])]
+    }
+
+    #[inline(always)]
+    fn shr_u64(self, a: [__m256i; 2], bits: u32) -> [__m256i; 2] {
+        // SAFETY: `self` says that AVX2 is there.
+        a.map(|a| unsafe { _mm256_srl_epi64(a, _mm_cvtsi32_si128(bits as i32)) })
+    }
+
+    #[inline(always)]
+    fn low(self, a: [__m256i; 2]) -> __m256i {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            let [first, second] = a.map(|a| _mm256_castsi256_ps(a));
+            let mixed = _mm256_castps_si256(_mm256_shuffle_ps::<0b10_00_10_00>(first, second));
+            _mm256_permute4x64_epi64::<0b11_01_10_00>(mixed)
+        }
+    }
+
+    #[inline(always)]
+    fn high(self, a: [__m256i; 2]) -> __m256i {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            let [first, second] = a.map(|a| _mm256_castsi256_ps(a));
+            let mixed = _mm256_castps_si256(_mm256_shuffle_ps::<0b11_01_11_01>(first, second));
+            _mm256_permute4x64_epi64::<0b11_01_10_00>(mixed)
+        }
+    }
+
+    #[inline(always)]
+    fn sum_u64(self, a: [__m256i; 2]) -> u64 {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            let four = _mm256_add_epi64(a[0], a[1]);
+            let two = _mm_add_epi64(_mm256_castsi256_si128(four), _mm256_extracti128_si256::<1>(four));
+            _mm_cvtsi128_si64(_mm_add_epi64(two, _mm_unpackhi_epi64(two, two))) as u64
+        }
+    }
+
+    #[inline(always)]
+    fn load_f32(self, from: &[f32]) -> __m256 {
+        let part;
+        let whole = if let Some(whole) = from.first_chunk() {
+            whole
+        } else {
+            part = self::part(from);
+            &part
+        };
+        let whole: &[f32; WIDTH] = whole;
+        // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
+        unsafe { _mm256_loadu_ps(whole.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn store_f32(self, value: __m256, to: &mut [f32]) {
+        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
+            // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
+            unsafe { _mm256_storeu_ps(whole.as_mut_ptr(), value) }
+        } else {
+            let mut array = [0.0; WIDTH];
+            self.store_f32(value, &mut array);
+            store_part(array, to);
+        }
+    }
+
+    #[inline(always)]
+    fn load_u32(self, from: &[u32]) -> __m256i {
+        let part;
+        let whole = if let Some(whole) = from.first_chunk() {
+            whole
+        } else {
+            part = self::part(from);
+            &part
+        };
+        let whole: &[u32; WIDTH] = whole;
+        // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
+        unsafe { _mm256_loadu_si256(whole.as_ptr().cast()) }
+    }
+
+    #[inline(always)]
+    fn store_u32(self, value: __m256i, to: &mut [u32]) {
+        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
+            // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
+            unsafe { _mm256_storeu_si256(whole.as_mut_ptr().cast(), value) }
+        } else {
+            let mut array = [0; WIDTH];
+            self.store_u32(value, &mut array);
+            store_part(array, to);
+        }
+    }
+
+    #[inline(always)]
+    fn load_u64(self, from: &[u64]) -> [__m256i; 2] {
+        let part;
+        let whole = if let Some(whole) = from.first_chunk() {
+            whole
+        } else {
+            part = self::part(from);
+            &part
+        };
+        let whole: &[u64; WIDTH] = whole;
+        let first = whole.as_ptr();
+        // SAFETY: `self` says that AVX2 is there, and the array has eight elements, four a register, aligned or not.
+        unsafe { [_mm256_loadu_si256(first.cast()), _mm256_loadu_si256(first.add(4).cast())] }
+    }
+
+    #[inline(always)]
+    fn store_u64(self, value: [__m256i; 2], to: &mut [u64]) {
+        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
+            let first = whole.as_mut_ptr();
+            // SAFETY: `self` says that AVX2 is there, and the array has eight elements, four a register, aligned or not.
+            unsafe {
+                _mm256_storeu_si256(first.cast(), value[0]);
+                _mm256_storeu_si256(first.add(4).cast(), value[1]);
+            }
+        } else {
+            let mut array = [0; WIDTH];
+            self.store_u64(value, &mut array);
+            store_part(array, to);
+        }
+    }
+
+    #[inline(always)]
+    fn gather_f32(self, table: &[f32], index: __m256i) -> __m256 {
+        let inside = self.inside(table.len(), index);
+        // SAFETY: `self` says that AVX2 is there; only lanes with an index inside the table are read.
+        unsafe {
+            let mask = _mm256_castsi256_ps(inside);
+            _mm256_mask_i32gather_ps::<4>(_mm256_setzero_ps(), table.as_ptr(), index, mask)
+        }
+    }
+
+    #[inline(always)]
+    fn gather_u32(self, table: &[u32], index: __m256i) -> __m256i {
+        let inside = self.inside(table.len(), index);
+        // SAFETY: `self` says that AVX2 is there; only lanes with an index inside the table are read.
+        unsafe {
+            _mm256_mask_i32gather_epi32::<4>(_mm256_setzero_si256(), table.as_ptr().cast(), index, inside)
+        }
+    }
+}
+
+impl Avx2 {
+    /// Where an index is inside a table of this length, as far as an offset reaches.
+    #[inline(always)]
+    fn inside(self, length: usize, index: __m256i) -> __m256i {
+        self.less_u32(index, self.splat_u32(length.min(i32::MAX as usize) as u32))
+    }
+}

@@ -1,0 +1,258 @@
+//! AVX-512: sixteen numbers.
+
+use super::Lanes;
+use core::arch::x86_64::*;
+
+/// Sixteen numbers in a register of 512 bits.
+#[derive(Clone, Copy)]
+pub struct Avx512(());
+
+impl Avx512 {
+    /// The registers.
+    ///
+    /// # Safety
+    /// The processor must have AVX512F, VL, DQ and BW.
+    #[inline(always)]
+    pub unsafe fn assume() -> Self {
+        Self(())
+    }
+}
+
+const WIDTH: usize = 16;
+
+/// Up to the width of elements, zeros after them.
+#[cold]
+fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
+    let mut array = [T::default(); WIDTH];
+    for (place, &value) in array.iter_mut().zip(from) {
+        *place = value;
+    }
+    array
+}
+
+#[cold]
+fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
+    for (place, value) in to.iter_mut().zip(values) {
+        *place = value;
+    }
+}
+
+/// Methods that are one expression of instructions.
+macro_rules! instructions {
+    ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
+        #[inline(always)]
+        fn $name(self, $($argument: $type),*) -> $result {
+            // SAFETY: `self` exists only where the processor has the instructions; none of these reads memory.
+            unsafe { $value }
+        }
+    )* };
+}
+
+impl Lanes for Avx512 {
+    const WIDTH: usize = WIDTH;
+    type F32 = __m512;
+    type U32 = __m512i;
+    type U64 = [__m512i; 2];
+    type Mask = __mmask16;
+
+    instructions! {
+        splat(value: f32) -> __m512 = _mm512_set1_ps(value);
+        add(a: __m512, b: __m512) -> __m512 = _mm512_add_ps(a, b);
+        sub(a: __m512, b: __m512) -> __m512 = _mm512_sub_ps(a, b);
+        mul(a: __m512, b: __m512) -> __m512 = _mm512_mul_ps(a, b);
+        div(a: __m512, b: __m512) -> __m512 = _mm512_div_ps(a, b);
+        sqrt(a: __m512) -> __m512 = _mm512_sqrt_ps(a);
+        less(a: __m512, b: __m512) -> __mmask16 = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b);
+        select(mask: __mmask16, yes: __m512, no: __m512) -> __m512 = _mm512_mask_blend_ps(mask, no, yes);
+        splat_u32(value: u32) -> __m512i = _mm512_set1_epi32(value as i32);
+        add_u32(a: __m512i, b: __m512i) -> __m512i = _mm512_add_epi32(a, b);
+        sub_u32(a: __m512i, b: __m512i) -> __m512i = _mm512_sub_epi32(a, b);
+        mul_u32(a: __m512i, b: __m512i) -> __m512i = _mm512_mullo_epi32(a, b);
+        and(a: __m512i, b: __m512i) -> __m512i = _mm512_and_si512(a, b);
+        or(a: __m512i, b: __m512i) -> __m512i = _mm512_or_si512(a, b);
+        xor(a: __m512i, b: __m512i) -> __m512i = _mm512_xor_si512(a, b);
+        shl(a: __m512i, bits: u32) -> __m512i = _mm512_sll_epi32(a, _mm_cvtsi32_si128(bits as i32));
+        shr(a: __m512i, bits: u32) -> __m512i = _mm512_srl_epi32(a, _mm_cvtsi32_si128(bits as i32));
+        sar(a: __m512i, bits: u32) -> __m512i = _mm512_sra_epi32(a, _mm_cvtsi32_si128(bits as i32));
+        equal(a: __m512i, b: __m512i) -> __mmask16 = _mm512_cmpeq_epi32_mask(a, b);
+        less_i32(a: __m512i, b: __m512i) -> __mmask16 = _mm512_cmplt_epi32_mask(a, b);
+        less_u32(a: __m512i, b: __m512i) -> __mmask16 = _mm512_cmplt_epu32_mask(a, b);
+        select_u32(mask: __mmask16, yes: __m512i, no: __m512i) -> __m512i = _mm512_mask_blend_epi32(mask, no, yes);
+        to_bits(a: __m512) -> __m512i = _mm512_castps_si512(a);
+        of_bits(a: __m512i) -> __m512 = _mm512_castsi512_ps(a);
+        of_i32(a: __m512i) -> __m512 = _mm512_cvtepi32_ps(a);
+        of_u32(a: __m512i) -> __m512 = _mm512_cvtepu32_ps(a);
+        abs(a: __m512) -> __m512 = _mm512_abs_ps(a);
+        round(a: __m512) -> __m512i = _mm512_cvtps_epi32(a);
+        splat_u64(value: u64) -> [__m512i; 2] = [_mm512_set1_epi64(value as i64); 2];
+        add_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
+            [_mm512_add_epi64(a[0], b[0]), _mm512_add_epi64(a[1], b[1])];
+        sub_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
+            [_mm512_sub_epi64(a[0], b[0]), _mm512_sub_epi64(a[1], b[1])];
+        mul_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
+            [_mm512_mullo_epi64(a[0], b[0]), _mm512_mullo_epi64(a[1], b[1])];
+        xor_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
+            [_mm512_xor_si512(a[0], b[0]), _mm512_xor_si512(a[1], b[1])];
+        product(a: __m512i, b: __m512i) -> [__m512i; 2] = [
+            _mm512_mul_epu32(
+                _mm512_cvtepu32_epi64(_mm512_castsi512_si256(a)),
+                _mm512_cvtepu32_epi64(_mm512_castsi512_si256(b)),
+            ),
+            _mm512_mul_epu32(
+                _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64::<1>(a)),
+                _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64::<1>(b)),
+            ),
+        ];
+        shr_u64(a: [__m512i; 2], bits: u32) -> [__m512i; 2] = [
+            _mm512_srl_epi64(a[0], _mm_cvtsi32_si128(bits as i32)),
+            _mm512_srl_epi64(a[1], _mm_cvtsi32_si128(bits as i32)),
+        ];
+        widen_i32(a: __m512i) -> [__m512i; 2] = [
+            _mm512_cvtepi32_epi64(_mm512_castsi512_si256(a)),
+            _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64::<1>(a)),
+        ];
+        round_i64(a: __m512) -> [__m512i; 2] = [
+            _mm512_cvtps_epi64(_mm512_castps512_ps256(a)),
+            _mm512_cvtps_epi64(_mm512_extractf32x8_ps::<1>(a)),
+        ];
+        low(a: [__m512i; 2]) -> __m512i = _mm512_inserti64x4::<1>(
+            _mm512_castsi256_si512(_mm512_cvtepi64_epi32(a[0])),
+            _mm512_cvtepi64_epi32(a[1]),
+        );
+        high(a: [__m512i; 2]) -> __m512i = _mm512_inserti64x4::<1>(
+            _mm512_castsi256_si512(_mm512_cvtepi64_epi32(_mm512_srli_epi64::<32>(a[0]))),
+            _mm512_cvtepi64_epi32(_mm512_srli_epi64::<32>(a[1])),
+        );
+        sum_u64(a: [__m512i; 2]) -> u64 = _mm512_reduce_add_epi64(_mm512_add_epi64(a[0], a[1])) as u64;
+    }
+
+    #[inline(always)]
+    fn both(self, a: __mmask16, b: __mmask16) -> __mmask16 {
+        a & b
+    }
+
+    #[inline(always)]
+    fn either(self, a: __mmask16, b: __mmask16) -> __mmask16 {
+        a | b
+    }
+
+    #[inline(always)]
+    fn bits(self, mask: __mmask16) -> u32 {
+        u32::from(mask)
+    }
+
+    #[inline(always)]
+    fn load_f32(self, from: &[f32]) -> __m512 {
+        let part;
+        let whole = if let Some(whole) = from.first_chunk() {
+            whole
+        } else {
+            part = self::part(from);
+            &part
+        };
+        let whole: &[f32; WIDTH] = whole;
+        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
+        unsafe { _mm512_loadu_ps(whole.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn store_f32(self, value: __m512, to: &mut [f32]) {
+        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
+            // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
+            unsafe { _mm512_storeu_ps(whole.as_mut_ptr(), value) }
+        } else {
+            let mut array = [0.0; WIDTH];
+            self.store_f32(value, &mut array);
+            store_part(array, to);
+        }
+    }
+
+    #[inline(always)]
+    fn load_u32(self, from: &[u32]) -> __m512i {
+        let part;
+        let whole = if let Some(whole) = from.first_chunk() {
+            whole
+        } else {
+            part = self::part(from);
+            &part
+        };
+        let whole: &[u32; WIDTH] = whole;
+        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
+        unsafe { _mm512_loadu_si512(whole.as_ptr().cast()) }
+    }
+
+    #[inline(always)]
+    fn store_u32(self, value: __m512i, to: &mut [u32]) {
+        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
+            // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
+            unsafe { _mm512_storeu_si512(whole.as_mut_ptr().cast(), value) }
+        } else {
+            let mut array = [0; WIDTH];
+            self.store_u32(value, &mut array);
+            store_part(array, to);
+        }
+    }
+
+    #[inline(always)]
+    fn load_u64(self, from: &[u64]) -> [__m512i; 2] {
+        let part;
+        let whole = if let Some(whole) = from.first_chunk() {
+            whole
+        } else {
+            part = self::part(from);
+            &part
+        };
+        let whole: &[u64; WIDTH] = whole;
+        let first = whole.as_ptr();
+        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements, eight a register, aligned or not.
+        unsafe { [_mm512_loadu_si512(first.cast()), _mm512_loadu_si512(first.add(8).cast())] }
+    }
+
+    #[inline(always)]
+    fn store_u64(self, value: [__m512i; 2], to: &mut [u64]) {
+        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
+            let first = whole.as_mut_ptr();
+            // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements, eight a register.
+            unsafe {
+                _mm512_storeu_si512(first.cast(), value[0]);
+                _mm512_storeu_si512(first.add(8).cast(), value[1]);
+            }
+        } else {
+            let mut array = [0; WIDTH];
+            self.store_u64(value, &mut array);
+            store_part(array, to);
+        }
+    }
+
+    #[inline(always)]
+    fn gather_f32(self, table: &[f32], index: __m512i) -> __m512 {
+        let inside = self.inside(table.len(), index);
+        // SAFETY: `self` says that AVX-512 is there; only lanes with an index inside the table are read.
+        unsafe { _mm512_mask_i32gather_ps::<4>(_mm512_setzero_ps(), inside, index, table.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn gather_u32(self, table: &[u32], index: __m512i) -> __m512i {
+        let inside = self.inside(table.len(), index);
+        // SAFETY: `self` says that AVX-512 is there; only lanes with an index inside the table are read.
+        unsafe {
+            _mm512_mask_i32gather_epi32::<4>(_mm512_setzero_si512(), inside, index, table.as_ptr().cast())
+        }
+    }
+
+    #[inline(always)]
+    fn compress(self, mask: __mmask16, a: __m512i, to: &mut [u32; WIDTH]) -> usize {
+        // To a register first: compressing into memory takes a hundred cycles on some processors.
+        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements.
+        unsafe { _mm512_storeu_si512(to.as_mut_ptr().cast(), _mm512_maskz_compress_epi32(mask, a)) }
+        mask.count_ones() as usize
+    }
+}
+
+impl Avx512 {
+    /// Where an index is inside a table of this length, as far as an offset reaches.
+    #[inline(always)]
+    fn inside(self, length: usize, index: __m512i) -> __mmask16 {
+        self.less_u32(index, self.splat_u32(length.min(i32::MAX as usize) as u32))
+    }
+}

@@ -1,0 +1,253 @@
+//! Numbers side by side: one interface over the processor's wide registers, and the choice among them at run time.
+//!
+//! A computation is written once, as a [`Kernel`] generic over [`Lanes`], and [`Level::dispatch`] runs it with the
+//! registers of a level. Whatever the level, each lane has the bits of the same operation on a single number: additions,
+//! multiplications, divisions and square roots are those of IEEE 754 binary32, rounded to nearest, and never fused.
+//!
+//! This is the one place around the engine with unsafe code. It rests on one fact: a value of a type that implements
+//! [`Lanes`] exists only where the processor has been seen to have the instructions.
+//!
+//! ```
+//! use meniscus_wide::lanes::{Kernel, Lanes, Level};
+//!
+//! struct Double<'a>(&'a mut [f32]);
+//!
+//! impl Kernel for Double<'_> {
+//!     type Output = ();
+//!
+//!     #[inline(always)]
+//!     fn run<L: Lanes>(self, lanes: L) {
+//!         for piece in self.0.chunks_mut(L::WIDTH) {
+//!             let value = lanes.load_f32(piece);
+//!             lanes.store_f32(lanes.add(value, value), piece);
+//!         }
+//!     }
+//! }
+//!
+//! for level in Level::available() {
+//!     let mut numbers = [1.0, 2.0, 3.0, 4.0, 5.0];
+//!     level.dispatch(Double(&mut numbers));
+//!     assert_eq!(numbers, [2.0, 4.0, 6.0, 8.0, 10.0]);
+//! }
+//! ```
+
+#![allow(unsafe_code, reason = "the instructions of wide registers; each block says why it is sound")]
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod level;
+#[cfg(target_arch = "aarch64")]
+mod neon;
+mod portable;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod simd128;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
+mod views;
+
+pub use level::{Kernel, Level};
+pub use views::bits_of_fractions;
+
+/// The largest [`Lanes::WIDTH`].
+pub const LARGEST_WIDTH: usize = 16;
+
+/// `WIDTH` numbers side by side, and what can be done to all of them at once.
+///
+/// A value is a proof that the processor has the instructions, so all methods are safe. Loads take as many elements as
+/// there are, up to the width, and fill up with zeros; stores write as many as there is room for. Integers wrap.
+pub trait Lanes: Copy + Send + Sync + 'static {
+    /// How many numbers are side by side: 4, 8 or 16.
+    const WIDTH: usize;
+    /// Numbers of binary32.
+    type F32: Copy;
+    /// Integers of 32 bits, read as signed or not as the operation says.
+    type U32: Copy;
+    /// As many integers of 64 bits.
+    type U64: Copy;
+    /// A truth value a lane.
+    type Mask: Copy;
+
+    /// The same number in all lanes.
+    fn splat(self, value: f32) -> Self::F32;
+    /// The first elements of a slice.
+    fn load_f32(self, from: &[f32]) -> Self::F32;
+    /// Writes to the first elements of a slice.
+    fn store_f32(self, value: Self::F32, to: &mut [f32]);
+    /// a + b.
+    fn add(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    /// a − b.
+    fn sub(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    /// a·b.
+    fn mul(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    /// a / b.
+    fn div(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    /// √a.
+    fn sqrt(self, a: Self::F32) -> Self::F32;
+    /// Where a < b.
+    fn less(self, a: Self::F32, b: Self::F32) -> Self::Mask;
+    /// `yes` where the mask is true, else `no`.
+    fn select(self, mask: Self::Mask, yes: Self::F32, no: Self::F32) -> Self::F32;
+
+    /// The same integer in all lanes.
+    fn splat_u32(self, value: u32) -> Self::U32;
+    /// The first elements of a slice.
+    fn load_u32(self, from: &[u32]) -> Self::U32;
+    /// Writes to the first elements of a slice.
+    fn store_u32(self, value: Self::U32, to: &mut [u32]);
+    /// a + b.
+    fn add_u32(self, a: Self::U32, b: Self::U32) -> Self::U32;
+    /// a − b.
+    fn sub_u32(self, a: Self::U32, b: Self::U32) -> Self::U32;
+    /// The lower 32 bits of a·b.
+    fn mul_u32(self, a: Self::U32, b: Self::U32) -> Self::U32;
+    /// Bits in both.
+    fn and(self, a: Self::U32, b: Self::U32) -> Self::U32;
+    /// Bits in either.
+    fn or(self, a: Self::U32, b: Self::U32) -> Self::U32;
+    /// Bits in one of both.
+    fn xor(self, a: Self::U32, b: Self::U32) -> Self::U32;
+    /// Shifted to the left by `bits` < 32.
+    fn shl(self, a: Self::U32, bits: u32) -> Self::U32;
+    /// Shifted to the right by `bits` < 32, zeros moving in.
+    fn shr(self, a: Self::U32, bits: u32) -> Self::U32;
+    /// Shifted to the right by `bits` < 32, the sign moving in.
+    fn sar(self, a: Self::U32, bits: u32) -> Self::U32;
+    /// Where a = b.
+    fn equal(self, a: Self::U32, b: Self::U32) -> Self::Mask;
+    /// Where a < b, both read as signed.
+    fn less_i32(self, a: Self::U32, b: Self::U32) -> Self::Mask;
+    /// `yes` where the mask is true, else `no`.
+    fn select_u32(self, mask: Self::Mask, yes: Self::U32, no: Self::U32) -> Self::U32;
+
+    /// Where both are true.
+    fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Where either is true.
+    fn either(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// One bit a lane, the first lane the lowest.
+    fn bits(self, mask: Self::Mask) -> u32;
+
+    /// The bits of the numbers.
+    fn to_bits(self, a: Self::F32) -> Self::U32;
+    /// The numbers of these bits.
+    fn of_bits(self, a: Self::U32) -> Self::F32;
+    /// The number nearest to an integer read as signed.
+    fn of_i32(self, a: Self::U32) -> Self::F32;
+    /// The integer nearest to a number of modulus below 2³¹, ties to even; any integer for others.
+    fn round(self, a: Self::F32) -> Self::U32;
+
+    /// The same integer in all lanes.
+    fn splat_u64(self, value: u64) -> Self::U64;
+    /// The first elements of a slice.
+    fn load_u64(self, from: &[u64]) -> Self::U64;
+    /// Writes to the first elements of a slice.
+    fn store_u64(self, value: Self::U64, to: &mut [u64]);
+    /// a + b.
+    fn add_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
+    /// a − b.
+    fn sub_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
+    /// The lower 64 bits of a·b.
+    fn mul_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
+    /// The product of two integers of 32 bits, not signed.
+    fn product(self, a: Self::U32, b: Self::U32) -> Self::U64;
+    /// Bits in one of both.
+    fn xor_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
+    /// Shifted to the right by `bits` < 64, zeros moving in.
+    fn shr_u64(self, a: Self::U64, bits: u32) -> Self::U64;
+    /// The same integers with 64 bits, read as signed.
+    fn widen_i32(self, a: Self::U32) -> Self::U64;
+    /// The lower 32 bits.
+    fn low(self, a: Self::U64) -> Self::U32;
+    /// The upper 32 bits.
+    fn high(self, a: Self::U64) -> Self::U32;
+    /// The sum over all lanes.
+    fn sum_u64(self, a: Self::U64) -> u64;
+
+    /// The elements of a table at these indices, not signed; 0 beyond its end.
+    fn gather_f32(self, table: &[f32], index: Self::U32) -> Self::F32;
+    /// The elements of a table at these indices, not signed; 0 beyond its end.
+    fn gather_u32(self, table: &[u32], index: Self::U32) -> Self::U32;
+
+    /// The number nearest to an integer not read as signed.
+    #[inline(always)]
+    fn of_u32(self, a: Self::U32) -> Self::F32 {
+        // Both halves are exact, so that the sum is rounded once.
+        let upper = self.mul(self.of_i32(self.shr(a, 16)), self.splat(65536.0));
+        let lower = self.of_i32(self.and(a, self.splat_u32(0xFFFF)));
+        self.add(upper, lower)
+    }
+
+    /// |a|.
+    #[inline(always)]
+    fn abs(self, a: Self::F32) -> Self::F32 {
+        self.of_bits(self.and(self.to_bits(a), self.splat_u32(0x7FFF_FFFF)))
+    }
+
+    /// −a, of a zero too.
+    #[inline(always)]
+    fn negate(self, a: Self::F32) -> Self::F32 {
+        self.of_bits(self.xor(self.to_bits(a), self.splat_u32(0x8000_0000)))
+    }
+
+    /// Where a < b, neither read as signed.
+    #[inline(always)]
+    fn less_u32(self, a: Self::U32, b: Self::U32) -> Self::Mask {
+        let sign = self.splat_u32(0x8000_0000);
+        self.less_i32(self.xor(a, sign), self.xor(b, sign))
+    }
+
+    /// The numbers as an array, the lanes beyond the width 0.
+    #[inline(always)]
+    fn array_f32(self, a: Self::F32) -> [f32; LARGEST_WIDTH] {
+        let mut array = [0.0; LARGEST_WIDTH];
+        self.store_f32(a, &mut array);
+        array
+    }
+
+    /// The integers as an array, the lanes beyond the width 0.
+    #[inline(always)]
+    fn array_u32(self, a: Self::U32) -> [u32; LARGEST_WIDTH] {
+        let mut array = [0; LARGEST_WIDTH];
+        self.store_u32(a, &mut array);
+        array
+    }
+
+    /// The integers as an array, the lanes beyond the width 0.
+    #[inline(always)]
+    fn array_u64(self, a: Self::U64) -> [u64; LARGEST_WIDTH] {
+        let mut array = [0; LARGEST_WIDTH];
+        self.store_u64(a, &mut array);
+        array
+    }
+
+    /// The signed integer nearest to a finite number, as [`meniscus_core::units::round_half_even`] says, of modulus
+    /// below 2⁶³.
+    #[inline(always)]
+    fn round_i64(self, a: Self::F32) -> Self::U64 {
+        let fits = self.less(self.abs(a), self.splat(2_147_483_648.0));
+        if self.bits(fits) == (1 << Self::WIDTH) - 1 {
+            return self.widen_i32(self.round(a));
+        }
+        let mut rounded = [0; LARGEST_WIDTH];
+        for (rounded, value) in rounded.iter_mut().zip(self.array_f32(a)) {
+            *rounded = meniscus_core::units::round_half_even(value) as u64;
+        }
+        self.load_u64(&rounded)
+    }
+
+    /// Writes the lanes where the mask is true, in their order, to the beginning of `to`, and says how many they are;
+    /// elements after them, up to the width, may be written to as well.
+    #[inline(always)]
+    fn compress(self, mask: Self::Mask, a: Self::U32, to: &mut [u32; LARGEST_WIDTH]) -> usize {
+        let bits = self.bits(mask);
+        let mut count = 0;
+        for (lane, value) in self.array_u32(a).into_iter().enumerate().take(Self::WIDTH) {
+            if let Some(place) = to.get_mut(count) {
+                *place = value;
+            }
+            count += (bits >> lane & 1) as usize;
+        }
+        count
+    }
+}
