@@ -67,7 +67,8 @@ impl PairForce {
         let near_squared = (near * near) as f32;
         let repulsion_squared = if repels { CUTOFF_SQUARED } else { 0.0 };
         Self {
-            reach: libm::ceil(cutoff / parameters.side * UNITS) as u32,
+            // Half a box is farther than any cut-off, even where rounding up makes them one.
+            reach: (libm::ceil(cutoff / parameters.side * UNITS) as u32).min(i32::MAX as u32),
             unit: (parameters.side / UNITS) as f32,
             reach_squared: if near_squared > repulsion_squared { near_squared } else { repulsion_squared },
             repulsion_squared,
