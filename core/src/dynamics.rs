@@ -1,13 +1,14 @@
 //! The step as a whole, over caller-owned memory: forces → largest force → Δt → noise → positions.
 //!
-//! [`Dynamics`] holds what a run is made of and where it stands; [`Memory`] lends it the arrays. One direction, no
-//! way back: nothing is written to the state before everything that can fail has succeeded.
+//! [`Dynamics`] holds what a run is made of and where it stands; [`Memory`] lends it the arrays; the [`Stages`] do the
+//! work. One direction, no way back: nothing is written to the state before everything that can fail has succeeded.
 //! [`crate::engine::Engine`] owns such memory as plain arrays; a host may own it as vectors.
 //!
 //! ```
 //! use meniscus_core::dynamics::{Clock, Dynamics, Memory};
 //! use meniscus_core::influence::influence_length;
 //! use meniscus_core::parameters::Parameters;
+//! use meniscus_core::stages::Scalar;
 //! use meniscus_core::torus::{Fraction, Position};
 //! use meniscus_core::transform::{AnySize, Complex32};
 //!
@@ -25,7 +26,7 @@
 //! let parameters = Parameters { grid: M, side: 16.0, ..Parameters::default() };
 //! let discs = [(0, Position::from_bits(0, 0)), (1, Position::from_bits(1 << 31, 0))];
 //! let mut dynamics = Dynamics::new(&parameters, Clock::START, discs, &mut memory).unwrap();
-//! let step = dynamics.step(&AnySize, &mut memory).unwrap();
+//! let step = dynamics.step(&mut Scalar(AnySize), &mut memory).unwrap();
 //! assert_eq!(dynamics.clock().step, 1);
 //! assert!(step.length > 0);
 //! ```
@@ -33,7 +34,7 @@
 use crate::assignment::DISC;
 use crate::digest::State;
 use crate::environment::{self, EnvironmentError};
-use crate::ermak::{Displacement, StepLimits, displace, largest_force};
+use crate::ermak::{Displacement, HalfBox, StepLimits};
 use crate::forces::Forces;
 use crate::grid::Grid;
 use crate::influence::{fill_gradient, fill_influence};
@@ -41,8 +42,8 @@ use crate::near_part::{fill_table, table_length};
 use crate::noise::{Purpose, StepKey, ThermalKick};
 use crate::pair_force::near_cutoff;
 use crate::parameters::{LARGEST_CAPILLARY_STRENGTH, LARGEST_STRENGTH, Noise, ParameterError, Parameters};
+use crate::stages::Stages;
 use crate::torus::{Fraction, Position, UNITS};
-use crate::transform::LineTransform;
 use crate::units::TIME_UNITS;
 
 pub use crate::forces::ForceError;
@@ -193,7 +194,7 @@ impl Dynamics {
         environment::check().map_err(InitError::Environment)?;
         let grid = Grid::new(parameters.grid).ok_or(InitError::Parameters(ParameterError::Grid))?;
         let near = table_length(near_cutoff(parameters));
-        if !memory.holds_grid(parameters.grid) || memory.near.len() < near {
+        if !memory.holds_tables(parameters.grid, near) {
             return Err(InitError::Memory);
         }
         let count = take_discs(discs, memory)?;
@@ -243,8 +244,8 @@ impl Dynamics {
     ///
     /// # Errors
     /// A [`ForceError`]; the state is not touched either way.
-    pub fn forces<T: LineTransform>(&self, transform: &T, memory: &mut Memory<'_>) -> Result<(), ForceError> {
-        self.forces.compute(transform, self.count, memory)
+    pub fn forces<S: Stages>(&self, stages: &mut S, memory: &mut Memory<'_>) -> Result<(), ForceError> {
+        self.forces.compute(stages, self.count, memory)
     }
 
     /// Computes the forces and tells how long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the
@@ -252,14 +253,13 @@ impl Dynamics {
     ///
     /// # Errors
     /// A [`ForceError`]; the state is not touched either way.
-    pub fn next_step<T: LineTransform>(
+    pub fn next_step<S: Stages>(
         &self,
-        transform: &T,
+        stages: &mut S,
         memory: &mut Memory<'_>,
     ) -> Result<(u64, u64), ForceError> {
-        self.forces(transform, memory)?;
-        let discs = memory.discs(self.count);
-        let largest_force = largest_force(discs.force_x, discs.force_y);
+        self.forces(stages, memory)?;
+        let largest_force = stages.largest_force(&mut memory.discs(self.count));
         Ok((self.limits.step_length(largest_force).unwrap_or(0), largest_force))
     }
 
@@ -267,12 +267,8 @@ impl Dynamics {
     ///
     /// # Errors
     /// A [`StepError`]; the state is then as it was.
-    pub fn step<T: LineTransform>(
-        &mut self,
-        transform: &T,
-        memory: &mut Memory<'_>,
-    ) -> Result<Step, StepError> {
-        let (length, largest_force) = self.next_step(transform, memory)?;
+    pub fn step<S: Stages>(&mut self, stages: &mut S, memory: &mut Memory<'_>) -> Result<Step, StepError> {
+        let (length, largest_force) = self.next_step(stages, memory)?;
         if length == 0 {
             return Err(StepError::StepTooShort);
         }
@@ -280,33 +276,19 @@ impl Dynamics {
             step: self.clock.step.checked_add(1).ok_or(StepError::TimeOverflow)?,
             time: self.clock.time.checked_add(length).ok_or(StepError::TimeOverflow)?,
         };
-        self.find_displacements(length, memory.discs(self.count))?;
-        displace_all(memory.discs(self.count));
+        let discs = &mut memory.discs(self.count);
+        stages.displacements(&self.displacement(length), discs).map_err(|HalfBox| StepError::HalfBox)?;
+        stages.displace(discs);
         self.clock = clock;
         Ok(Step { length, largest_force, clock })
     }
 
-    /// Turns forces and noise into displacements.
-    fn find_displacements(&self, length: u64, discs: Memory<'_>) -> Result<(), StepError> {
+    /// What moves the discs in a step of this length.
+    fn displacement(&self, length: u64) -> Displacement {
         let step_length = length as f32 / TIME_UNITS as f32;
         let key = StepKey::new(self.seed, Purpose::Motion, self.clock.step);
         let kick = ThermalKick::new(self.noise, step_length, key);
-        let displacement = Displacement { step_length, units: self.units, kick };
-        let forces = discs.force_x.iter().zip(discs.force_y.iter());
-        let targets = discs.displacement_x.iter_mut().zip(discs.displacement_y);
-        for ((&id, (&force_x, &force_y)), (x, y)) in discs.ids.iter().zip(forces).zip(targets) {
-            (*x, *y) = displacement.of(id, (force_x, force_y)).map_err(|_| StepError::HalfBox)?;
-        }
-        Ok(())
-    }
-}
-
-/// Adds the displacements to the positions.
-fn displace_all(discs: Memory<'_>) {
-    let along_x = discs.x.iter_mut().zip(discs.crossings_x).zip(discs.displacement_x);
-    let along_y = discs.y.iter_mut().zip(discs.crossings_y).zip(discs.displacement_y);
-    for ((coordinate, crossings), units) in along_x.chain(along_y) {
-        displace(coordinate, crossings, *units);
+        Displacement { step_length, units: self.units, kick }
     }
 }
 

@@ -24,6 +24,7 @@ use crate::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, Memory, Step
 use crate::mesh::LINES;
 use crate::near_part::{LARGEST_TABLE, Segment};
 use crate::parameters::Parameters;
+use crate::stages::Scalar;
 use crate::torus::{Fraction, Position};
 use crate::transform::{Complex32, FixedSize};
 
@@ -138,7 +139,7 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
     /// A [`StepError`]; the state is then as it was.
     pub fn step(&mut self) -> Result<Step, StepError> {
         let (dynamics, mut memory) = self.parts();
-        dynamics.step(&FixedSize::<M>, &mut memory)
+        dynamics.step(&mut Scalar(FixedSize::<M>), &mut memory)
     }
 
     /// Computes the forces at the present positions, for [`Engine::force`].
@@ -147,7 +148,7 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
     /// A [`ForceError`].
     pub fn compute_forces(&mut self) -> Result<(), ForceError> {
         let (dynamics, mut memory) = self.parts();
-        dynamics.forces(&FixedSize::<M>, &mut memory)
+        dynamics.forces(&mut Scalar(FixedSize::<M>), &mut memory)
     }
 
     /// Number of discs.

@@ -13,16 +13,14 @@
 //! assert!(engine.force(0).unwrap().0 > 0 && engine.force(1).unwrap().0 < 0);
 //! ```
 
-use crate::assignment::{self, Crowded, DISC};
-use crate::cells::for_each_pair;
+use crate::assignment::{Crowded, DISC};
 use crate::fields::FieldForce;
 use crate::grid::Grid;
 use crate::memory::Memory;
-use crate::mesh::{Tables, solve, solve_strengths};
 use crate::near_part::table_length;
-use crate::pair_force::{PairForce, near_cutoff, product_of_strengths};
+use crate::pair_force::{PairForce, near_cutoff};
 use crate::parameters::{Assignment, Parameters};
-use crate::transform::LineTransform;
+use crate::stages::Stages;
 
 /// Why forces could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +35,7 @@ pub enum ForceError {
 
 /// Which capillary strengths the discs have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Coupling {
+pub enum Coupling {
     /// None: V0 or all strengths are 0.
     None,
     /// 1, all of them.
@@ -101,98 +99,74 @@ impl Forces {
         !self.written
     }
 
-    /// Whether the memory fits `count` discs and their mesh.
-    fn fit(&self, count: usize, memory: &Memory<'_>) -> bool {
-        memory.capacity() >= count && memory.holds_grid(self.grid.nodes()) && memory.near.len() >= self.near
+    /// The mesh.
+    #[must_use]
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// How mass is spread over the mesh and the field gathered.
+    #[must_use]
+    pub fn assignment(&self) -> Assignment {
+        self.assignment
+    }
+
+    /// Which capillary strengths the discs have.
+    #[must_use]
+    pub fn coupling(&self) -> Coupling {
+        self.coupling
+    }
+
+    /// The force of a pair.
+    #[must_use]
+    pub fn pairs(&self) -> &PairForce {
+        &self.pairs
+    }
+
+    /// The external fields.
+    #[must_use]
+    pub fn fields(&self) -> &FieldForce {
+        &self.fields
+    }
+
+    /// Length of the table of the near part; 0 without.
+    #[must_use]
+    pub fn near_length(&self) -> usize {
+        self.near
+    }
+
+    /// Whether the memory fits `count` discs, their tables and these stages.
+    fn fit<S: Stages>(&self, stages: &S, count: usize, memory: &Memory<'_>) -> bool {
+        memory.capacity() >= count
+            && memory.holds_tables(self.grid.nodes(), self.near)
+            && stages.fits(self, memory)
     }
 
     /// Computes the force on each of the first `count` discs into `force_x` and `force_y`.
     ///
     /// # Errors
     /// A [`ForceError`]; the state is not touched either way.
-    pub(crate) fn compute<T: LineTransform>(
+    pub(crate) fn compute<S: Stages>(
         &self,
-        transform: &T,
+        stages: &mut S,
         count: usize,
         memory: &mut Memory<'_>,
     ) -> Result<(), ForceError> {
         if count == 0 {
             return Err(ForceError::NotInitialised);
         }
-        if !self.fit(count, memory) {
+        if !self.fit(stages, count, memory) {
             return Err(ForceError::Memory);
         }
-        self.attract(transform, memory.discs(count)).map_err(|Crowded| ForceError::Crowded)?;
+        let discs = &mut memory.discs(count);
+        stages.arrange(self, discs);
+        stages.mesh(self, discs).map_err(|Crowded| ForceError::Crowded)?;
         if self.pairs.reach() > 0 {
-            self.add_pairs(memory.discs(count));
+            stages.add_pairs(self, discs);
         }
         if !self.fields.is_zero() {
-            self.add_fields(memory.discs(count));
+            stages.add_fields(self, discs);
         }
         Ok(())
-    }
-
-    /// The capillary force by the mesh.
-    fn attract<T: LineTransform>(&self, transform: &T, discs: Memory<'_>) -> Result<(), Crowded> {
-        let tables = Tables { influence: discs.influence, gradient: discs.gradient };
-        let (assignment, grid) = (self.assignment, self.grid);
-        let (x, y) = (&*discs.x, &*discs.y);
-        let forces = (&mut *discs.force_x, &mut *discs.force_y);
-        match self.coupling {
-            Coupling::None => {
-                forces.0.fill(0);
-                forces.1.fill(0);
-            }
-            Coupling::Equal => {
-                assignment::deposit(assignment, grid, x, y, discs.nodes)?;
-                solve(transform, grid, &tables, discs.nodes, discs.field, discs.lines);
-                assignment::gather(assignment, grid, (x, y), discs.field, forces);
-            }
-            Coupling::Unequal => {
-                let strengths = &*discs.strengths;
-                assignment::deposit_strengths(assignment, grid, (x, y), strengths, discs.nodes)?;
-                solve_strengths(transform, grid, &tables, discs.nodes, discs.field, discs.lines);
-                assignment::gather_strengths(assignment, grid, (x, y), strengths, discs.field, forces);
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds the forces of all pairs.
-    fn add_pairs(&self, discs: Memory<'_>) {
-        let Memory { ids, x, y, force_x, force_y, strengths, near, next, nodes, .. } = discs;
-        let table = near.get(..self.near).unwrap_or(&[]);
-        let id = |disc: usize| ids.get(disc).copied().unwrap_or(0);
-        let strength = |disc: usize| strengths.get(disc).copied().unwrap_or(0);
-        let product = |first: usize, second: usize| match self.coupling {
-            Coupling::None => 0.0,
-            Coupling::Equal => PairForce::EQUAL,
-            Coupling::Unequal => product_of_strengths(strength(first), strength(second)),
-        };
-        let mut add = |disc: usize, (x, y): (i64, i64)| {
-            if let (Some(force_x), Some(force_y)) = (force_x.get_mut(disc), force_y.get_mut(disc)) {
-                *force_x += x;
-                *force_y += y;
-            }
-        };
-        for_each_pair((x, y), self.pairs.reach(), nodes, next, |first, second, separation| {
-            let first_is_lower = id(first) < id(second);
-            let force = self.pairs.of(separation, first_is_lower, product(first, second), table);
-            if let Some((x, y)) = force {
-                add(first, (x, y));
-                add(second, (-x, -y));
-            }
-        });
-    }
-
-    /// Adds the external fields.
-    fn add_fields(&self, discs: Memory<'_>) {
-        let positions = discs.x.iter().zip(discs.y.iter());
-        let forces = discs.force_x.iter_mut().zip(discs.force_y);
-        for ((&x, &y), (force_x, force_y)) in positions.zip(forces) {
-            let (along_x, along_y) = self.fields.at(x, y);
-            *force_x += along_x;
-            *force_y += along_y;
-        }
     }
 }

@@ -11,7 +11,7 @@
 //!
 //! A datum's way: position → [`assignment::deposit`] → [`mesh::solve`] → [`assignment::gather`] ⊕
 //! [`pair_force`] over [`cells`] ⊕ [`fields`] → force → [`ermak::largest_force`] → Δt → [`noise`] → position.
-//! [`dynamics`] composes the stages over borrowed slices, [`engine::Engine`] owns the arrays.
+//! [`dynamics`] composes the [`stages`] over borrowed slices, [`engine::Engine`] owns the arrays.
 //!
 //! Units are R0 (disc radius), kBT and R0²/D throughout; equation numbers are those of Bleibel, Dietrich, Domínguez
 //! and Oettel, *Collective dynamics of colloids at fluid interfaces* (2011).
@@ -42,6 +42,7 @@ pub mod parameters;
 #[cfg(feature = "proptest")]
 pub mod property;
 pub mod repulsion;
+pub mod stages;
 pub mod stencil;
 pub mod torus;
 pub mod transform;

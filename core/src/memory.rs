@@ -44,7 +44,7 @@ pub struct Memory<'a> {
     pub next: &'a mut [u32],
     /// M × M: node masses, unit 2⁻²⁰ discs; then, the field being solved, the ends of the cells.
     pub nodes: &'a mut [u32],
-    /// M × M: the force field, kBT/R0.
+    /// M × M: the force field, kBT/R0. This and `lines` may be empty if the stages have their own.
     pub field: &'a mut [Complex32],
     /// Working memory of the solver, 2M elements or a multiple.
     pub lines: &'a mut [Complex32],
@@ -73,13 +73,11 @@ impl Memory<'_> {
         lengths.min().unwrap_or(0).min(LARGEST_PARTICLE_COUNT)
     }
 
-    /// Whether the mesh arrays are large enough for M nodes a side.
-    pub(crate) fn holds_grid(&self, grid: usize) -> bool {
-        self.nodes.len() == grid * grid
-            && self.field.len() == grid * grid
-            && self.lines.len() >= 2 * grid
-            && self.influence.len() >= influence_length(grid)
+    /// Whether the tables are long enough for M nodes a side and `near` segments of the near part.
+    pub(crate) fn holds_tables(&self, grid: usize, near: usize) -> bool {
+        self.influence.len() >= influence_length(grid)
             && self.gradient.len() >= grid
+            && self.near.len() >= near
     }
 
     /// The same memory, cut to `count` discs.

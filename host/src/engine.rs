@@ -22,6 +22,7 @@ use meniscus_core::pair_force::near_cutoff;
 use meniscus_core::parameters::{
     LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, LARGEST_STRENGTH, Parameters,
 };
+use meniscus_core::stages::Scalar;
 use meniscus_core::torus::{Fraction, Position};
 use meniscus_core::transform::{AnySize, Complex32};
 use meniscus_core::units::{force_from_units, time_from_units};
@@ -159,7 +160,7 @@ impl Engine {
     pub fn step(&mut self) -> Result<Step, EngineError> {
         let clock = self.clock();
         let (dynamics, mut memory) = self.parts();
-        dynamics.step(&AnySize, &mut memory).map_err(|error| EngineError::Step(error, clock))
+        dynamics.step(&mut Scalar(AnySize), &mut memory).map_err(|error| EngineError::Step(error, clock))
     }
 
     /// How long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the largest force that decides it
@@ -169,7 +170,7 @@ impl Engine {
     /// [`EngineError::Force`].
     pub fn next_step(&mut self) -> Result<(u64, u64), EngineError> {
         let (dynamics, mut memory) = self.parts();
-        dynamics.next_step(&AnySize, &mut memory).map_err(EngineError::Force)
+        dynamics.next_step(&mut Scalar(AnySize), &mut memory).map_err(EngineError::Force)
     }
 
     /// The forces on all discs at their present positions, in the order of ids, kBT/R0.
@@ -178,7 +179,7 @@ impl Engine {
     /// [`EngineError::Force`].
     pub fn forces(&mut self) -> Result<Vec<[f64; 2]>, EngineError> {
         let (dynamics, mut memory) = self.parts();
-        dynamics.forces(&AnySize, &mut memory).map_err(EngineError::Force)?;
+        dynamics.forces(&mut Scalar(AnySize), &mut memory).map_err(EngineError::Force)?;
         let force = |slot: u32| {
             let slot = slot as usize;
             [force_from_units(self.force_x[slot]), force_from_units(self.force_y[slot])]

@@ -13,6 +13,7 @@ use meniscus_core::parameters::{
     Method, Noise, ParameterError, Parameters, SPACING_RANGE,
 };
 use meniscus_core::repulsion::{CUTOFF, LARGEST_FORCE, SMALLEST_DISTANCE};
+use meniscus_core::stages::Scalar;
 use meniscus_core::torus::{LARGEST_SIDE, Position};
 use meniscus_core::transform::AnySize;
 use meniscus_core::units::{FORCE_UNITS, TIME_UNITS, force_from_units, time_from_units};
@@ -211,7 +212,7 @@ fn the_largest_box_works() {
     let mut dynamics =
         Dynamics::new(&parameters, Clock::START, with_ids(&discs), &mut arrays.memory()).unwrap();
     for _ in 0..2 {
-        dynamics.step(&AnySize, &mut arrays.memory()).unwrap();
+        dynamics.step(&mut Scalar(AnySize), &mut arrays.memory()).unwrap();
     }
     // Both overlapping pairs, one of them across the corner, moved apart, symmetrically.
     for (first, second) in [(0, 1), (2, 3)] {
@@ -396,10 +397,13 @@ fn an_engine_with_too_short_a_table_refuses_the_cut_off() {
 
 #[test]
 fn memory_that_became_too_short_is_refused_and_the_state_stays() {
-    let changes: [fn(&mut Arrays); 3] = [
+    let changes: [fn(&mut Arrays); 6] = [
         |arrays| arrays.near.truncate(table_length(6.0) - 1),
         |arrays| arrays.strengths.truncate(3),
         |arrays| arrays.influence.truncate(80),
+        |arrays| arrays.nodes.truncate(255),
+        |arrays| arrays.field.truncate(255),
+        |arrays| arrays.lines.truncate(31),
     ];
     for change in changes {
         let mut arrays = Arrays::new(16, 1, 4);
@@ -407,11 +411,11 @@ fn memory_that_became_too_short_is_refused_and_the_state_stays() {
         let mut dynamics = Dynamics::new(&SPLIT, Clock::START, discs, &mut arrays.memory()).unwrap();
         let whole = arrays.clone();
         change(&mut arrays);
-        assert_eq!(dynamics.forces(&AnySize, &mut arrays.memory()), Err(ForceError::Memory));
-        assert_eq!(dynamics.step(&AnySize, &mut arrays.memory()), Err(StepError::Memory));
+        assert_eq!(dynamics.forces(&mut Scalar(AnySize), &mut arrays.memory()), Err(ForceError::Memory));
+        assert_eq!(dynamics.step(&mut Scalar(AnySize), &mut arrays.memory()), Err(StepError::Memory));
         assert_eq!((dynamics.clock(), &arrays.x, &arrays.y), (Clock::START, &whole.x, &whole.y));
         arrays = whole;
-        assert!(dynamics.step(&AnySize, &mut arrays.memory()).is_ok());
+        assert!(dynamics.step(&mut Scalar(AnySize), &mut arrays.memory()).is_ok());
     }
 }
 

@@ -3,6 +3,7 @@
 use meniscus_core::dynamics::{Clock, Dynamics};
 use meniscus_core::engine::Engine;
 use meniscus_core::parameters::{Assignment, Noise, Parameters};
+use meniscus_core::stages::Scalar;
 use meniscus_core::torus::Position;
 use meniscus_core::transform::AnySize;
 use meniscus_tests::arrays::Arrays;
@@ -131,7 +132,7 @@ fn memory_owned_elsewhere_changes_no_bit() {
                 Dynamics::new(&parameters, Clock::START, discs.iter().copied(), &mut arrays.memory())
                     .unwrap();
             for _ in 0..20 {
-                assert_eq!(dynamics.step(&AnySize, &mut arrays.memory()), engine.step());
+                assert_eq!(dynamics.step(&mut Scalar(AnySize), &mut arrays.memory()), engine.step());
                 let state = dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths);
                 assert_eq!(state.digest(), engine.state().digest());
             }

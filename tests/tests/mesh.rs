@@ -8,6 +8,7 @@ use meniscus_core::mesh::{Tables, solve};
 use meniscus_core::parameters::{
     Assignment, Gradient, Influence, LARGEST_SPLITTING_OF_SPACING, Method, Noise, Parameters,
 };
+use meniscus_core::stages::Scalar;
 use meniscus_core::torus::Position;
 use meniscus_core::transform::{AnySize, Complex32, FixedSize, LineTransform};
 use meniscus_core::units::force_from_units;
@@ -68,7 +69,7 @@ fn quantised_forces(parameters: &Parameters, discs: &[(u32, Position)]) -> Vec<(
     let mut arrays = Arrays::new(parameters.grid, 8, discs.len());
     let discs = discs.iter().copied();
     let dynamics = Dynamics::new(parameters, Clock::START, discs, &mut arrays.memory()).unwrap();
-    dynamics.forces(&AnySize, &mut arrays.memory()).unwrap();
+    dynamics.forces(&mut Scalar(AnySize), &mut arrays.memory()).unwrap();
     arrays.slots.iter().map(|&slot| (arrays.force_x[slot as usize], arrays.force_y[slot as usize])).collect()
 }
 

@@ -12,6 +12,7 @@ use meniscus_core::grid::Grid;
 use meniscus_core::influence::{fill_gradient, fill_influence, influence_length};
 use meniscus_core::mesh::{Tables, solve_strengths};
 use meniscus_core::parameters::{Assignment, Influence, Method, Noise, Parameters};
+use meniscus_core::stages::Scalar;
 use meniscus_core::torus::Position;
 use meniscus_core::transform::{AnySize, Complex32};
 use meniscus_core::units::force_from_units;
@@ -79,7 +80,7 @@ fn as_numbers(strengths: &[i32]) -> Vec<f64> {
 fn quantised<D: Into<Disc>>(parameters: &Parameters, discs: Vec<D>) -> Vec<[i64; 2]> {
     let mut arrays = Arrays::new(parameters.grid, 8, discs.len());
     let dynamics = Dynamics::new(parameters, Clock::START, discs, &mut arrays.memory()).unwrap();
-    dynamics.forces(&AnySize, &mut arrays.memory()).unwrap();
+    dynamics.forces(&mut Scalar(AnySize), &mut arrays.memory()).unwrap();
     arrays.slots.iter().map(|&slot| [arrays.force_x[slot as usize], arrays.force_y[slot as usize]]).collect()
 }
 

@@ -46,6 +46,7 @@ use layout::{Element, Layout, Span};
 use meniscus_core::dynamics::{Clock, Disc, Dynamics};
 use meniscus_core::grid::Grid;
 use meniscus_core::parameters::Parameters;
+use meniscus_core::stages::Scalar;
 use meniscus_core::torus::{Fraction, Position, Torus};
 use meniscus_core::transform::AnySize;
 
@@ -256,7 +257,7 @@ pub unsafe extern "C" fn meniscus_step(
         }
         // SAFETY: an engine of meniscus_create, used by nobody else.
         let (dynamics, _, mut memory) = unsafe { layout::parts(engine) };
-        let done = dynamics.step(&AnySize, &mut memory)?;
+        let done = dynamics.step(&mut Scalar(AnySize), &mut memory)?;
         if !step.is_null() {
             // SAFETY: `step` as promised.
             unsafe { put(step, done.into()) }?;
@@ -276,7 +277,7 @@ pub unsafe extern "C" fn meniscus_compute_forces(engine: *mut MeniscusEngine) ->
         check(engine)?;
         // SAFETY: an engine of meniscus_create, used by nobody else.
         let (dynamics, _, mut memory) = unsafe { layout::parts(engine) };
-        Ok(dynamics.forces(&AnySize, &mut memory)?)
+        Ok(dynamics.forces(&mut Scalar(AnySize), &mut memory)?)
     };
     status_of(run())
 }

@@ -27,6 +27,7 @@ use crate::mesh::LINES;
 use crate::near_part::{Segment, fill_table, table_length};
 use crate::pair_force::{PairForce, near_cutoff};
 use crate::parameters::{Assignment, ParameterError, Parameters};
+use crate::stages::Scalar;
 use crate::torus::{Fraction, Torus};
 use crate::transform::{AnySize, Complex32};
 use crate::units::force_from_units;
@@ -164,7 +165,7 @@ impl Run {
             (*x, *y) = (position.x, position.y);
         }
         let dynamics = self.dynamics;
-        dynamics.forces(&AnySize, &mut self.memory()).ok()?;
+        dynamics.forces(&mut Scalar(AnySize), &mut self.memory()).ok()?;
         let [x, y] = &self.forces;
         Some(x.iter().zip(y).map(|(&x, &y)| [force_from_units(x), force_from_units(y)]).collect())
     }
