@@ -13,7 +13,7 @@
 //! ```
 
 use crate::configuration::{Configuration, Lattice, Start};
-use crate::engine::{Engine, EngineError};
+use crate::engine::{Engine, EngineError, Machinery};
 use crate::files::state::State;
 use crate::start::{self, StartError};
 use meniscus_core::dynamics::{Clock, Disc};
@@ -57,7 +57,18 @@ impl Simulation {
     ///
     /// # Errors
     /// A [`SimulationError`].
-    pub fn new(mut configuration: Configuration) -> Result<Self, SimulationError> {
+    pub fn new(configuration: Configuration) -> Result<Self, SimulationError> {
+        Self::with_machinery(configuration, Machinery::default())
+    }
+
+    /// As [`Simulation::new`], in an engine that works as asked for.
+    ///
+    /// # Errors
+    /// A [`SimulationError`].
+    pub fn with_machinery(
+        mut configuration: Configuration,
+        machinery: Machinery,
+    ) -> Result<Self, SimulationError> {
         let torus = torus(&configuration)?;
         let State { positions, step, time, strengths } = initial_state(&configuration, &torus)?;
         if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {
@@ -69,7 +80,8 @@ impl Simulation {
             position,
             strength: strengths.of(id as usize),
         });
-        let engine = Engine::with_ids(&configuration.parameters(), Clock { step, time }, discs)?;
+        let clock = Clock { step, time };
+        let engine = Engine::with_machinery(machinery, &configuration.parameters(), clock, discs)?;
         Ok(Self { configuration, torus, engine })
     }
 

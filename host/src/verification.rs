@@ -17,7 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::engine::{Engine, EngineError};
+use crate::engine::{Engine, EngineError, Kind, Machinery};
 use crate::golden::{Difference, Golden, Record};
 use crate::simulation::{Simulation, SimulationError};
 
@@ -46,18 +46,16 @@ pub fn compare(
     Ok(None)
 }
 
-/// Runs the simulation twice, with the discs stored in order and in reverse, up to step `last`, comparing after
-/// every step: by contract no step differs.
+/// Runs the simulation twice, in its engine and in the core's with the discs stored in reverse, up to step `last`,
+/// comparing after every step: by contract no step differs.
 ///
 /// # Errors
 /// A [`SimulationError`] when the run cannot be set up or a step is refused.
-pub fn compare_storage_orders(
-    simulation: Simulation,
-    last: u64,
-) -> Result<Option<Difference>, SimulationError> {
+pub fn compare_with_core(simulation: Simulation, last: u64) -> Result<Option<Difference>, SimulationError> {
     let Simulation { configuration, mut engine, .. } = simulation;
     let reversed = engine.discs().into_iter().rev();
-    let mut other = Engine::with_ids(&configuration.parameters(), engine.clock(), reversed)?;
+    let core = Machinery { kind: Kind::Core, threads: 1 };
+    let mut other = Engine::with_machinery(core, &configuration.parameters(), engine.clock(), reversed)?;
     while engine.clock().step < last {
         engine.step()?;
         other.step()?;

@@ -4,6 +4,7 @@
 
 mod digest;
 mod forces;
+mod machinery;
 mod presets;
 mod progress;
 mod run;
@@ -76,6 +77,10 @@ enum CommandError {
     Golden(#[from] GoldenError),
     #[error(transparent)]
     File(#[from] FileError),
+    #[error(
+        "--threads {threads}: --engine core takes one thread; leave --threads out, or take --engine host"
+    )]
+    CoreThreads { threads: u16 },
     #[error("Ctrl-C cannot be caught: {0}")]
     Signal(std::io::Error),
     #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]

@@ -1,5 +1,6 @@
 //! `meniscus run [CONFIG|PRESET] …`
 
+use super::machinery::MachineryArguments;
 use super::progress::Progress;
 use super::{CommandError, Source, Verdict, say};
 use crate::run::{GOLDEN_INTERVAL, GoldenRequest, Outcome, Run, Stop};
@@ -29,12 +30,8 @@ pub(super) struct Arguments {
     /// Stop after this many seconds of wall time, the state written.
     #[arg(long, value_name = "S", value_parser = wall_time, allow_negative_numbers = true)]
     max_wall: Option<Duration>,
-    /// Threads; the scalar engine runs on one.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1), default_value = "1")]
-    threads: u32,
-    /// Engine.
-    #[arg(long, value_parser = ["core"], default_value = "core")]
-    engine: String,
+    #[command(flatten)]
+    machinery: MachineryArguments,
     /// Where to write the golden file, which must not exist, instead of `golden.toml` in the directory.
     #[arg(long, value_name = "FILE")]
     golden: Option<PathBuf>,
@@ -55,7 +52,7 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
         Some(path) => GoldenRequest { path: path.clone(), every: arguments.every },
         None => GoldenRequest { every: arguments.every, ..GoldenRequest::in_directory(&directory) },
     };
-    let simulation = Simulation::new(configuration)?;
+    let simulation = Simulation::with_machinery(configuration, arguments.machinery.read()?)?;
     announce(&simulation, &directory);
     let density = simulation.configuration.mean_density();
     let watch = stop_signal()?;

@@ -1,10 +1,11 @@
 //! `meniscus verify GOLDEN [--bisect]`
 
+use super::machinery::MachineryArguments;
 use super::{CommandError, Verdict};
 use crate::configuration::Configuration;
 use crate::golden::{Difference, Golden};
 use crate::simulation::Simulation;
-use crate::verification::{compare, compare_storage_orders};
+use crate::verification::{compare, compare_with_core};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -12,10 +13,12 @@ use std::path::PathBuf;
 pub(super) struct Arguments {
     /// A golden file, as `run` writes it.
     golden: PathBuf,
-    /// If a record differs, run up to it twice, with the discs stored in two orders, and compare every step: this
-    /// tells whether the program contradicts itself, and where first.
+    /// If a record differs, run up to it in this engine and in the scalar core, with the discs stored in two orders, and
+    /// compare every step: this tells whether the program contradicts itself, and where first.
     #[arg(long)]
     bisect: bool,
+    #[command(flatten)]
+    machinery: MachineryArguments,
 }
 
 pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
@@ -23,9 +26,11 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
     if golden.records.is_empty() {
         return Err(CommandError::GoldenRecords { path: arguments.golden.clone(), found: "no record" });
     }
+    let machinery = arguments.machinery.read()?;
     let name = format!("{}: configuration", arguments.golden.display());
     let simulation = || -> Result<Simulation, CommandError> {
-        Ok(Simulation::new(Configuration::from_text(&name, &golden.configuration, &[])?)?)
+        let configuration = Configuration::from_text(&name, &golden.configuration, &[])?;
+        Ok(Simulation::with_machinery(configuration, machinery)?)
     };
     let mut agreed = None;
     let difference = compare(&golden, &mut simulation()?.engine, |record| agreed = Some(record.step))?;
@@ -61,9 +66,12 @@ fn bisect(
     agreed: Option<u64>,
     output: &mut impl Write,
 ) -> Result<(), CommandError> {
-    match compare_storage_orders(simulation, last)? {
+    match compare_with_core(simulation, last)? {
         Some(difference) => {
-            writeln!(output, "this program contradicts itself, discs stored in reverse: {difference}")?;
+            writeln!(
+                output,
+                "this program contradicts itself, the core with discs stored in reverse: {difference}"
+            )?;
         }
         None => writeln!(
             output,

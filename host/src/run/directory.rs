@@ -118,8 +118,8 @@ impl Directory {
         let summary = serde_json::json!({
             "program": concat!("meniscus ", env!("CARGO_PKG_VERSION")),
             "machine": format!("{} {}", std::env::consts::ARCH, std::env::consts::OS),
-            "engine": "core",
-            "threads": 1,
+            "engine": simulation.engine.kind().word(),
+            "threads": simulation.engine.threads(),
             "ended": match (failed, outcome.stop) {
                 (true, _) => "error",
                 (false, None) => "finished",

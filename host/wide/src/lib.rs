@@ -9,3 +9,4 @@
 #![deny(unsafe_code)]
 
 pub mod lanes;
+pub mod stages;

@@ -1,4 +1,5 @@
-//! The host's engine: the core's stages over vectors, with mesh and capacity chosen at run time.
+//! The host's engine: memory in vectors, with mesh and capacity chosen at run time, and stages chosen among the wide ones,
+//! in as many threads as asked for, and the core's own. All give the same bits.
 //!
 //! ```
 //! use meniscus::engine::Engine;
@@ -13,66 +14,58 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod chosen;
+mod error;
+
+use chosen::ChosenStages;
+pub use error::EngineError;
+
 use meniscus_core::digest::State;
-use meniscus_core::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, Memory, Step, StepError};
+use meniscus_core::dynamics::{Clock, Disc, Dynamics, InitError, Memory, Step};
 use meniscus_core::influence::influence_length;
 use meniscus_core::mesh::LINES;
 use meniscus_core::near_part::{Segment, table_length};
 use meniscus_core::pair_force::near_cutoff;
-use meniscus_core::parameters::{
-    LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, LARGEST_STRENGTH, Parameters,
-};
-use meniscus_core::stages::Scalar;
+use meniscus_core::parameters::{LARGEST_PARTICLE_COUNT, Parameters};
 use meniscus_core::torus::{Fraction, Position};
-use meniscus_core::transform::{AnySize, Complex32};
-use meniscus_core::units::{force_from_units, time_from_units};
-use thiserror::Error;
+use meniscus_core::transform::Complex32;
+use meniscus_core::units::force_from_units;
+use rayon::ThreadPool;
 
-/// Why a run could not start or go on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum EngineError {
-    /// The engine could not be set up.
-    #[error("the run cannot be set up: {}", init_message(*.0))]
-    Init(InitError),
-    /// A step was refused; the state is as it was.
-    #[error("the step after step {} at time {} R0²/D is refused: {}", .1.step, time_from_units(.1.time), step_message(*.0))]
-    Step(StepError, Clock),
-    /// The forces could not be computed.
-    #[error("the forces cannot be computed: {}", step_message(StepError::from(*.0)))]
-    Force(ForceError),
+/// Who does the stages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// The wide stages of [`meniscus_wide`].
+    #[default]
+    Host,
+    /// The core's own, one disc after the other.
+    Core,
 }
 
-fn init_message(error: InitError) -> String {
-    match error {
-        InitError::Parameters(error) => format!("parameter out of range ({error:?})"),
-        InitError::Environment(error) => format!(
-            "this process's floating-point environment would change the bits ({error:?}); \
-             run without flush-to-zero and with rounding to nearest"
-        ),
-        InitError::Strength { id } => format!(
-            "the capillary strength f of disc {id} is too large; at most {LARGEST_STRENGTH}, and V0*f^2 at most \
-             {LARGEST_CAPILLARY_STRENGTH} kBT"
-        ),
-        InitError::GridMismatch | InitError::Memory => "the memory does not fit the mesh".into(),
-        InitError::NoParticles => "there is no disc; at least 1 is needed".into(),
-        InitError::TooManyParticles { capacity } => format!("too many discs; at most {capacity} fit"),
-        InitError::Id { id } => {
-            format!("id {id} is out of range or given twice; ids are 0 to n − 1, each once")
+impl Kind {
+    /// Its word on the command line.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Host => "host",
+            Self::Core => "core",
         }
     }
 }
 
-fn step_message(error: StepError) -> &'static str {
-    match error {
-        StepError::NotInitialised => "there are no discs",
-        StepError::Memory => "the memory does not fit the run",
-        StepError::Crowded => "a mesh node would hold more than 4095 discs; use a finer mesh or fewer discs",
-        StepError::StepTooShort => {
-            "the largest force allows no step of 2⁻⁴⁰ R0²/D; \
-             separate overlapping discs or raise motion.max_displacement"
-        }
-        StepError::TimeOverflow => "time would exceed 2²⁴ R0²/D",
-        StepError::HalfBox => "a disc would move by half a box; lower motion.max_step",
+/// How an engine works; nothing of it can be seen in the bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Machinery {
+    /// Who does the stages.
+    pub kind: Kind,
+    /// Threads, at least 1. The core's own stages use one.
+    pub threads: usize,
+}
+
+/// The wide stages in one thread.
+impl Default for Machinery {
+    fn default() -> Self {
+        Self { kind: Kind::Host, threads: 1 }
     }
 }
 
@@ -80,6 +73,9 @@ fn step_message(error: StepError) -> &'static str {
 #[derive(Debug)]
 pub struct Engine {
     dynamics: Dynamics,
+    stages: ChosenStages,
+    /// None if one thread is enough.
+    threads: Option<ThreadPool>,
     ids: Vec<u32>,
     slots: Vec<u32>,
     x: Vec<Fraction>,
@@ -118,6 +114,19 @@ impl Engine {
         clock: Clock,
         discs: impl IntoIterator<Item: Into<Disc>>,
     ) -> Result<Self, EngineError> {
+        Self::with_machinery(Machinery::default(), parameters, clock, discs)
+    }
+
+    /// As [`Engine::with_ids`], worked as asked for.
+    ///
+    /// # Errors
+    /// [`EngineError::Init`], or [`EngineError::Threads`] if they cannot be started.
+    pub fn with_machinery(
+        machinery: Machinery,
+        parameters: &Parameters,
+        clock: Clock,
+        discs: impl IntoIterator<Item: Into<Disc>>,
+    ) -> Result<Self, EngineError> {
         // A mesh that is refused must not be allocated first.
         parameters.validate().map_err(|error| EngineError::Init(InitError::Parameters(error)))?;
         let discs: Vec<Disc> = discs.into_iter().map(Into::into).take(LARGEST_PARTICLE_COUNT + 1).collect();
@@ -126,9 +135,13 @@ impl Engine {
             return Err(EngineError::Init(InitError::TooManyParticles { capacity }));
         }
         let (count, grid) = (discs.len(), parameters.grid);
+        let stages = ChosenStages::new(machinery, parameters, count);
         let zero = Complex32::new(0.0, 0.0);
+        let mesh_of_core = if machinery.kind == Kind::Core { grid } else { 0 };
         let mut engine = Self {
             dynamics: Dynamics::blank(),
+            threads: stages.threads()?,
+            stages,
             ids: vec![0; count],
             slots: vec![0; count],
             x: vec![Fraction::ZERO; count],
@@ -142,14 +155,16 @@ impl Engine {
             strengths: vec![0; count],
             next: vec![0; count],
             nodes: vec![0; grid * grid],
-            field: vec![zero; grid * grid],
-            lines: vec![zero; grid * LINES],
+            field: vec![zero; mesh_of_core * mesh_of_core],
+            lines: vec![zero; mesh_of_core * LINES],
             influence: vec![0.0; influence_length(grid)],
             gradient: vec![0.0; grid],
             near: vec![[0.0; 4]; table_length(near_cutoff(parameters))],
         };
-        let (dynamics, mut memory) = engine.parts();
-        *dynamics = Dynamics::new(parameters, clock, discs, &mut memory).map_err(EngineError::Init)?;
+        engine.work(|dynamics, _, memory| {
+            *dynamics = Dynamics::new(parameters, clock, discs, memory).map_err(EngineError::Init)?;
+            Ok(())
+        })?;
         Ok(engine)
     }
 
@@ -159,8 +174,8 @@ impl Engine {
     /// [`EngineError::Step`]; the state is then as it was.
     pub fn step(&mut self) -> Result<Step, EngineError> {
         let clock = self.clock();
-        let (dynamics, mut memory) = self.parts();
-        dynamics.step(&mut Scalar(AnySize), &mut memory).map_err(|error| EngineError::Step(error, clock))
+        self.work(|dynamics, stages, memory| dynamics.step(stages, memory))
+            .map_err(|error| EngineError::Step(error, clock))
     }
 
     /// How long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the largest force that decides it
@@ -169,8 +184,7 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Force`].
     pub fn next_step(&mut self) -> Result<(u64, u64), EngineError> {
-        let (dynamics, mut memory) = self.parts();
-        dynamics.next_step(&mut Scalar(AnySize), &mut memory).map_err(EngineError::Force)
+        self.work(|dynamics, stages, memory| dynamics.next_step(stages, memory)).map_err(EngineError::Force)
     }
 
     /// The forces on all discs at their present positions, in the order of ids, kBT/R0.
@@ -178,13 +192,24 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Force`].
     pub fn forces(&mut self) -> Result<Vec<[f64; 2]>, EngineError> {
-        let (dynamics, mut memory) = self.parts();
-        dynamics.forces(&mut Scalar(AnySize), &mut memory).map_err(EngineError::Force)?;
+        self.work(|dynamics, stages, memory| dynamics.forces(stages, memory)).map_err(EngineError::Force)?;
         let force = |slot: u32| {
             let slot = slot as usize;
             [force_from_units(self.force_x[slot]), force_from_units(self.force_y[slot])]
         };
         Ok(self.slots.iter().map(|&slot| force(slot)).collect())
+    }
+
+    /// Who does the stages.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.stages.kind()
+    }
+
+    /// Threads that the stages work in.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.threads.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
     /// Number of discs.
@@ -233,9 +258,13 @@ impl Engine {
         self.slots.iter().map(|&slot| of(slot)).collect()
     }
 
-    /// The run and its memory.
-    fn parts(&mut self) -> (&mut Dynamics, Memory<'_>) {
-        let memory = Memory {
+    /// Does something with the run, its stages and its memory, in the threads of this engine.
+    fn work<R: Send>(
+        &mut self,
+        task: impl FnOnce(&mut Dynamics, &mut ChosenStages, &mut Memory<'_>) -> R + Send,
+    ) -> R {
+        let (dynamics, stages) = (&mut self.dynamics, &mut self.stages);
+        let mut memory = Memory {
             ids: &mut self.ids,
             slots: &mut self.slots,
             x: &mut self.x,
@@ -255,6 +284,9 @@ impl Engine {
             gradient: &mut self.gradient,
             near: &mut self.near,
         };
-        (&mut self.dynamics, memory)
+        match &self.threads {
+            Some(threads) => threads.install(|| task(dynamics, stages, &mut memory)),
+            None => task(dynamics, stages, &mut memory),
+        }
     }
 }

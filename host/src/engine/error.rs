@@ -1,0 +1,57 @@
+//! Why a run could not start or go on.
+
+use meniscus_core::dynamics::{Clock, ForceError, InitError, StepError};
+use meniscus_core::parameters::{LARGEST_CAPILLARY_STRENGTH, LARGEST_STRENGTH};
+use meniscus_core::units::time_from_units;
+use thiserror::Error;
+
+/// Why a run could not start or go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum EngineError {
+    /// The engine could not be set up.
+    #[error("the run cannot be set up: {}", init_message(*.0))]
+    Init(InitError),
+    /// A step was refused; the state is as it was.
+    #[error("the step after step {} at time {} R0²/D is refused: {}", .1.step, time_from_units(.1.time), step_message(*.0))]
+    Step(StepError, Clock),
+    /// The threads could not be started.
+    #[error("{0} threads cannot be started; ask for fewer by --threads")]
+    Threads(usize),
+    /// The forces could not be computed.
+    #[error("the forces cannot be computed: {}", step_message(StepError::from(*.0)))]
+    Force(ForceError),
+}
+
+fn init_message(error: InitError) -> String {
+    match error {
+        InitError::Parameters(error) => format!("parameter out of range ({error:?})"),
+        InitError::Environment(error) => format!(
+            "this process's floating-point environment would change the bits ({error:?}); \
+             run without flush-to-zero and with rounding to nearest"
+        ),
+        InitError::Strength { id } => format!(
+            "the capillary strength f of disc {id} is too large; at most {LARGEST_STRENGTH}, and V0*f^2 at most \
+             {LARGEST_CAPILLARY_STRENGTH} kBT"
+        ),
+        InitError::GridMismatch | InitError::Memory => "the memory does not fit the mesh".into(),
+        InitError::NoParticles => "there is no disc; at least 1 is needed".into(),
+        InitError::TooManyParticles { capacity } => format!("too many discs; at most {capacity} fit"),
+        InitError::Id { id } => {
+            format!("id {id} is out of range or given twice; ids are 0 to n − 1, each once")
+        }
+    }
+}
+
+fn step_message(error: StepError) -> &'static str {
+    match error {
+        StepError::NotInitialised => "there are no discs",
+        StepError::Memory => "the memory does not fit the run",
+        StepError::Crowded => "a mesh node would hold more than 4095 discs; use a finer mesh or fewer discs",
+        StepError::StepTooShort => {
+            "the largest force allows no step of 2⁻⁴⁰ R0²/D; \
+             separate overlapping discs or raise motion.max_displacement"
+        }
+        StepError::TimeOverflow => "time would exceed 2²⁴ R0²/D",
+        StepError::HalfBox => "a disc would move by half a box; lower motion.max_step",
+    }
+}
