@@ -8,6 +8,7 @@
 #![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
 
 use meniscus::configuration::{Assignment, Configuration, Gradient, Influence, Method, Noise};
+use meniscus::engine::{Kind, Machinery};
 use meniscus::golden::Golden;
 use meniscus::simulation::Simulation;
 use meniscus::verification::compare;
@@ -28,8 +29,18 @@ fn configuration_of(golden: &Golden) -> Configuration {
     Configuration::from_text("golden", &golden.configuration, &[]).unwrap()
 }
 
+const CORE: Machinery = Machinery { kind: Kind::Core, threads: 1 };
+
+/// Each golden is compared with the core and with the host's engine, in one thread and in three.
+const MACHINERY: [Machinery; 3] =
+    [CORE, Machinery { kind: Kind::Host, threads: 1 }, Machinery { kind: Kind::Host, threads: 3 }];
+
+fn simulation_of(golden: &Golden, machinery: Machinery) -> Simulation {
+    Simulation::with_machinery(configuration_of(golden), machinery).unwrap()
+}
+
 fn mint(path: &Path, golden: &Golden, reason: &str) {
-    let mut simulation = Simulation::new(configuration_of(golden)).unwrap();
+    let mut simulation = simulation_of(golden, CORE);
     let mut minted = Golden::new(simulation.configuration.to_toml(), reason);
     for record in &golden.records {
         while simulation.engine.clock().step < record.step {
@@ -52,9 +63,13 @@ fn trajectories_have_the_bits_they_were_minted_with() {
             mint(&path, &golden, reason);
             continue;
         }
-        let mut simulation = Simulation::new(configuration_of(&golden)).unwrap();
-        let difference = compare(&golden, &mut simulation.engine, |_| ()).unwrap();
-        differences.extend(difference.map(|difference| format!("{}: {difference}", path.display())));
+        for machinery in MACHINERY {
+            let mut simulation = simulation_of(&golden, machinery);
+            let difference = compare(&golden, &mut simulation.engine, |_| ()).unwrap();
+            let told =
+                difference.map(|difference| format!("{}, {machinery:?}: {difference}", path.display()));
+            differences.extend(told);
+        }
     }
     assert!(
         differences.is_empty(),
@@ -102,7 +117,7 @@ fn a_flipped_bit_is_found_and_its_field_named() {
     let last = golden.records.last_mut().unwrap();
     last.y = last.y.replace(|digit: char| digit.is_ascii_hexdigit(), "0");
     let step = last.step;
-    let mut simulation = Simulation::new(configuration_of(&golden)).unwrap();
+    let mut simulation = simulation_of(&golden, CORE);
     let difference = compare(&golden, &mut simulation.engine, |_| ()).unwrap().unwrap();
     assert!(difference.to_string().starts_with(&format!("step {step}: y differs")), "{difference}");
 }
