@@ -8,5 +8,6 @@
 
 #![deny(unsafe_code)]
 
+pub mod division;
 pub mod lanes;
 pub mod stages;

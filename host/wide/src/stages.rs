@@ -1,5 +1,7 @@
 //! The wide stages of a step, for [`meniscus_core::dynamics::Dynamics`].
 
+use crate::division::Division;
+use crate::lanes::Level;
 use meniscus_core::assignment::{self, Crowded};
 use meniscus_core::ermak::{Displacement, HalfBox};
 use meniscus_core::forces::{Coupling, Forces};
@@ -14,19 +16,26 @@ use meniscus_core::transform::{AnySize, Complex32};
 pub struct Wide {
     field: Vec<Complex32>,
     lines: Vec<Complex32>,
-    threads: usize,
+    division: Division,
     scalar: Scalar<AnySize>,
 }
 
 impl Wide {
     /// Stages for `count` discs, in up to `threads` threads.
     #[must_use]
-    pub fn new(parameters: &Parameters, _count: usize, threads: usize) -> Self {
+    pub fn new(parameters: &Parameters, count: usize, threads: usize) -> Self {
+        Self::with(parameters, count, Level::best(), Division::of(threads, parameters.grid, count))
+    }
+
+    /// Stages for `count` discs with the registers of a level, divided as asked for; several pieces are done in the
+    /// threads of the rayon pool in which a stage is called.
+    #[must_use]
+    pub fn with(parameters: &Parameters, _count: usize, _level: Level, division: Division) -> Self {
         let (zero, grid) = (Complex32::new(0.0, 0.0), parameters.grid);
         Self {
             field: vec![zero; grid * grid],
             lines: vec![zero; grid * LINES],
-            threads,
+            division,
             scalar: Scalar(AnySize),
         }
     }
@@ -34,7 +43,7 @@ impl Wide {
     /// In how many threads a step is to be called.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.threads
+        self.division.threads()
     }
 }
 
