@@ -81,7 +81,8 @@ pub enum StepError {
     NotInitialised,
     /// The memory lent does not fit the run.
     Memory,
-    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047.
+    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047, or too many discs are in one place,
+    /// see [`crate::crowding`].
     Crowded,
     /// The largest force allows no step of even 2⁻⁴⁰ R0²/D.
     StepTooShort,

@@ -14,6 +14,7 @@
 //! ```
 
 use crate::assignment::{Crowded, DISC};
+use crate::crowding::Crowding;
 use crate::fields::FieldForce;
 use crate::grid::Grid;
 use crate::memory::Memory;
@@ -29,7 +30,8 @@ pub enum ForceError {
     NotInitialised,
     /// The memory lent does not fit the run.
     Memory,
-    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047.
+    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047, or too many discs are in one place,
+    /// see [`crate::crowding`].
     Crowded,
 }
 
@@ -53,6 +55,7 @@ pub struct Forces {
     /// Whether a strength is not 1; only then are they written.
     written: bool,
     pairs: PairForce,
+    crowding: Crowding,
     fields: FieldForce,
     /// Length of the table of the near part.
     near: usize,
@@ -67,6 +70,7 @@ impl Forces {
             coupling: Coupling::None,
             written: false,
             pairs: PairForce::blank(),
+            crowding: Crowding::blank(),
             fields: FieldForce::blank(),
             near: 0,
         }
@@ -83,12 +87,14 @@ impl Forces {
             } else {
                 Coupling::Unequal
             };
+        let repels = if parameters.repulsion { PairForce::repulsion(parameters.side).reach() } else { 0 };
         Self {
             grid,
             assignment: parameters.assignment,
             coupling,
             written: !all_one,
             pairs: PairForce::new(parameters),
+            crowding: Crowding::new(repels, grid),
             fields: FieldForce::new(&parameters.fields, parameters.side),
             near: table_length(near_cutoff(parameters)),
         }
@@ -135,9 +141,19 @@ impl Forces {
         self.near
     }
 
+    /// Refuses so many discs in one place that their forces might overflow.
+    fn check_crowding(&self, discs: &mut Memory<'_>) -> Result<(), Crowded> {
+        if self.crowding.concerns(discs.x.len()) {
+            self.crowding.count((discs.x, discs.y), discs.nodes)?;
+        }
+        Ok(())
+    }
+
     /// Whether the memory fits `count` discs, their tables and these stages.
     fn fit<S: Stages>(&self, stages: &S, count: usize, memory: &Memory<'_>) -> bool {
+        let cells = self.crowding.cells_a_side();
         memory.capacity() >= count
+            && (!self.crowding.concerns(count) || memory.nodes.len() >= cells * cells)
             && memory.holds_tables(self.grid.nodes(), self.near)
             && stages.fits(self, memory)
     }
@@ -160,7 +176,9 @@ impl Forces {
         }
         let discs = &mut memory.discs(count);
         stages.arrange(self, discs);
-        stages.mesh(self, discs).map_err(|Crowded| ForceError::Crowded)?;
+        self.check_crowding(discs)
+            .and_then(|()| stages.mesh(self, discs))
+            .map_err(|Crowded| ForceError::Crowded)?;
         if self.pairs.reach() > 0 {
             stages.add_pairs(self, discs);
         }

@@ -23,6 +23,7 @@ extern crate std;
 
 pub mod assignment;
 pub mod cells;
+pub mod crowding;
 pub mod digest;
 pub mod dynamics;
 pub mod engine;

@@ -211,8 +211,8 @@ pub const SPLITTING_RANGE: (f64, f64) = (1e-5, 8.0);
 pub const LARGEST_SPLITTING_OF_SPACING: f64 = 0.7;
 /// Smallest cut-off of the near part, R0.
 pub const SMALLEST_CUTOFF: f64 = 1.0;
-/// Largest number of discs. Bounds the total force, see [`crate::units`].
-pub const LARGEST_PARTICLE_COUNT: usize = 1 << 19;
+/// Largest number of discs, 2²². Bounds the total force, see [`crate::units`].
+pub const LARGEST_PARTICLE_COUNT: usize = 1 << 22;
 /// Largest seed, 2⁶³ − 1.
 pub const LARGEST_SEED: u64 = (1 << 63) - 1;
 /// Smallest and largest ceiling of the time step, R0²/D.

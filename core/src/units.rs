@@ -7,14 +7,24 @@
 //! | time step, time | `u64` | 2⁻⁴⁰ R0²/D |
 //!
 //! # The bound of the total force
-//! A pair repels with at most [`crate::repulsion::LARGEST_FORCE`] ≈ 7.7·10⁵ kBT/R0, below 1.3·10¹³ units.
-//! With at most 2¹⁹ discs, all of them in one place, a component stays below
-//! 2¹⁹ · 1.3·10¹³ < 6.9·10¹⁸ units. The mesh adds, with V0 f_i f_j ≤ 1000 kBT and h ≥ R0/8, at
-//! most 6 N V0/h < 2.6·10¹⁰ kBT/R0, below 4.3·10¹⁷ units: the sum of the moduli of all modes of the influence function
-//! times its gradient is about 3.0 V0/h per disc in the paper's schemes, whatever the mesh, and at most 5.5 V0/h of
-//! an optimal influence function with α·h ≤ 0.7. The near part adds at most V0/0.9 R0 a pair, below 10¹⁶ units, external
-//! fields at most 10⁸ kBT/R0, below 1.7·10¹⁵. Together they are below 2⁶³ ≈ 9.2·10¹⁸ units, whatever the positions
-//! are; a squared modulus is below 2¹²⁷.
+//! A pair repels with at most [`crate::repulsion::LARGEST_FORCE`] ≈ 7.7·10⁵ kBT/R0, below 1.3·10¹³ units. Up to
+//! 2¹⁹ discs may all be in one place: together they repel with less than 2¹⁹ · 1.3·10¹³ < 6.9·10¹⁸ units. Of more discs, up to
+//! [`LARGEST_PARTICLE_COUNT`](crate::parameters::LARGEST_PARTICLE_COUNT) = 2²², those within the cut-off lie in 3 × 3
+//! cells of at most 2¹⁵ discs each, see [`crate::crowding`], and repel with less than 9 · 2¹⁵ · 1.3·10¹³ < 3.9·10¹⁸ units.
+//!
+//! The mesh adds, with V0 f_i f_j ≤ 1000 kBT and h ≥ R0/8, at most 6 N V0/h: the sum of the moduli of all modes of
+//! the influence function times its gradient is about 3.0 V0/h per disc in the paper's schemes, whatever the mesh, and
+//! at most 5.5 V0/h of an optimal influence function with α·h ≤ 0.7. That is below 4.3·10¹⁷ units for 2¹⁹ discs and
+//! below 3.4·10¹⁸ for 2²². The near part adds at most V0/0.9 R0 a pair, below 10¹⁶ or 8·10¹⁶ units, external fields
+//! at most 10⁸ kBT/R0, below 1.7·10¹⁵.
+//!
+//! | discs | repulsion | mesh | near part | fields | sum |
+//! |---|---|---|---|---|---|
+//! | 2¹⁹ | 6.9·10¹⁸ | 4.3·10¹⁷ | 1.0·10¹⁶ | 1.7·10¹⁵ | 7.4·10¹⁸ |
+//! | 2²² | 3.9·10¹⁸ | 3.4·10¹⁸ | 8·10¹⁶ | 1.7·10¹⁵ | 7.4·10¹⁸ |
+//!
+//! Both are below 2⁶³ ≈ 9.2·10¹⁸ units, whatever the positions are and in whatever order is added; a squared modulus is
+//! below 2¹²⁷.
 //!
 //! ```
 //! use meniscus_core::units::{force_from_units, round_half_even, TIME_UNITS};

@@ -77,8 +77,8 @@ static MeniscusEngine *engine_for(void *memory) {
 static void sizes_and_creation(void) {
     EXPECT(meniscus_size(0, 1) == 0 && meniscus_size(8, 1) == 0 && meniscus_size(100, 1) == 0);
     EXPECT(meniscus_size(8192, 1) == 0 && meniscus_size(0x80000000u, 1) == 0);
-    EXPECT(meniscus_size(16, 0) == 0 && meniscus_size(16, 524289) == 0 && meniscus_size(16, SIZE_MAX) == 0);
-    EXPECT(meniscus_size(16, 1) != 0 && meniscus_size(4096, 524288) != 0);
+    EXPECT(meniscus_size(16, 0) == 0 && meniscus_size(16, 4194305) == 0 && meniscus_size(16, SIZE_MAX) == 0);
+    EXPECT(meniscus_size(16, 1) != 0 && meniscus_size(4096, 4194304) != 0);
     EXPECT(_Alignof(max_align_t) % meniscus_alignment() == 0);
 
     size_t length = meniscus_size(GRID, DISCS);

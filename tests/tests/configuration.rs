@@ -160,7 +160,7 @@ fn mesh_and_side() -> impl Strategy<Value = (Mesh, f64)> {
 
 /// A start that fits in a box of `side`, and its number of discs.
 fn start_in(side: f64) -> impl Strategy<Value = (Start, usize)> {
-    let fits = |area: f64| 1..(0.15 * area).clamp(2.0, 524_288.0) as usize;
+    let fits = |area: f64| 1..(0.15 * area).clamp(2.0, 4_194_304.0) as usize;
     let lattice = prop_oneof![Just(Lattice::Square), Just(Lattice::Hexagonal)];
     prop_oneof![
         fits(side * side).prop_map(|particles| (Start::Random, particles)),
@@ -170,8 +170,9 @@ fn start_in(side: f64) -> impl Strategy<Value = (Start, usize)> {
             let particles = 1 + per_ring * rings * (rings + 1) / 2;
             (Start::Rings { rings, spacing, per_ring }, particles as usize)
         }),
-        (lattice, 1_usize..524_289).prop_map(|(lattice, particles)| (Start::Lattice { lattice }, particles)),
-        (any::<String>(), 1_usize..524_289)
+        (lattice, 1_usize..4_194_305)
+            .prop_map(|(lattice, particles)| (Start::Lattice { lattice }, particles)),
+        (any::<String>(), 1_usize..4_194_305)
             .prop_filter("a path is not empty", |(path, _)| !path.is_empty())
             .prop_map(|(path, particles)| (Start::File { path: path.into(), density: None }, particles)),
     ]

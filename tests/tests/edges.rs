@@ -1,6 +1,7 @@
 //! The edges of the ranges: each is driven to, and what is refused leaves the state as it was.
 
 use meniscus_core::assignment::DISC;
+use meniscus_core::crowding::{LARGEST_CELL, LARGEST_HEAP};
 use meniscus_core::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, StepError};
 use meniscus_core::engine::Engine;
 use meniscus_core::ermak::{Displacement, HalfBox};
@@ -252,14 +253,16 @@ fn a_heap_of_thousands_of_discs_does_not_overflow() {
 fn the_total_force_stays_below_two_to_the_63() {
     // Every number here is an integer or rounded up.
     let in_units = |force: f64| (force * f64::from(FORCE_UNITS)).ceil() as u128;
-    let count = LARGEST_PARTICLE_COUNT as u128;
     // 6 V0/h for each disc: see the modes below, and the mesh's own test of them.
     let mesh = in_units(6.0 * LARGEST_CAPILLARY_STRENGTH / SPACING_RANGE.0);
     let near = in_units(1.000_001 * LARGEST_CAPILLARY_STRENGTH / SMALLEST_DISTANCE);
-    let pair = in_units(LARGEST_FORCE) + near;
-    let component = (count - 1) * pair + count * mesh + in_units(LARGEST_FIELD_FORCE);
-    assert!(component < 1 << 63, "{component:e}");
-    assert!(2 * component * component < 1 << 127);
+    let repelling = 9 * u128::from(LARGEST_CELL);
+    for (count, repelling) in [(LARGEST_HEAP, LARGEST_HEAP as u128), (LARGEST_PARTICLE_COUNT, repelling)] {
+        let pairs = repelling * in_units(LARGEST_FORCE) + count as u128 * near;
+        let component = pairs + count as u128 * mesh + in_units(LARGEST_FIELD_FORCE);
+        assert!(component < 1 << 63, "{component:e} of {count} discs");
+        assert!(2 * component * component < 1 << 127);
+    }
 }
 
 /// Σ |influence · gradient| over all modes, in V0/h, which bounds the field of one disc's mass wherever it lies.

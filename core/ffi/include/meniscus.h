@@ -34,7 +34,7 @@ typedef enum {
    */
   MENISCUS_STATUS_MEMORY_TOO_SHORT = 3,
   /**
-   * The capacity is not 1 to 524288, or no memory is so large.
+   * The capacity is not 1 to 4194304, or no memory is so large.
    */
   MENISCUS_STATUS_CAPACITY = 4,
   /**
@@ -175,7 +175,8 @@ typedef enum {
    */
   MENISCUS_STATUS_NOT_INITIALISED = 64,
   /**
-   * A mesh node would hold more than 4095 discs, or strengths of more than 2047.
+   * A mesh node would hold more than 4095 discs, or strengths of more than 2047, or, of more than 524288 discs, more than
+   * 32768 would be in one cell as wide as the repulsion reaches.
    */
   MENISCUS_STATUS_CROWDED = 65,
   /**
@@ -439,7 +440,7 @@ extern "C" {
 
 /**
  * Bytes of memory that an engine takes, for a mesh of `grid` nodes a side (a power of two from 16 to 4096) and room
- * for `capacity` discs (1 to 524288); 0 if one of them is out of range.
+ * for `capacity` discs (1 to 4194304); 0 if one of them is out of range.
  */
 size_t meniscus_size(uint32_t grid,
                      size_t capacity);

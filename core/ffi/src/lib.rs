@@ -107,7 +107,7 @@ unsafe fn array_or_none<'a, T>(source: *const T, count: usize) -> Result<Option<
 }
 
 /// Bytes of memory that an engine takes, for a mesh of `grid` nodes a side (a power of two from 16 to 4096) and room
-/// for `capacity` discs (1 to 524288); 0 if one of them is out of range.
+/// for `capacity` discs (1 to 4194304); 0 if one of them is out of range.
 #[unsafe(no_mangle)]
 pub extern "C" fn meniscus_size(grid: u32, capacity: usize) -> usize {
     Layout::new(grid, capacity).map_or(0, |layout| layout.size())

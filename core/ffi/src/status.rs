@@ -18,7 +18,7 @@ pub enum MeniscusStatus {
     Misaligned = 2,
     /// The memory is shorter than meniscus_size says.
     MemoryTooShort = 3,
-    /// The capacity is not 1 to 524288, or no memory is so large.
+    /// The capacity is not 1 to 4194304, or no memory is so large.
     Capacity = 4,
     /// An array has fewer elements than there are discs.
     ArrayTooShort = 5,
@@ -89,7 +89,8 @@ pub enum MeniscusStatus {
     Strength = 54,
     /// There are no discs: no run was set, or setting it failed.
     NotInitialised = 64,
-    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047.
+    /// A mesh node would hold more than 4095 discs, or strengths of more than 2047, or, of more than 524288 discs, more than
+    /// 32768 would be in one cell as wide as the repulsion reaches.
     Crowded = 65,
     /// The largest force allows no step of even 2^-40 R0^2/D.
     StepTooShort = 66,
@@ -109,7 +110,7 @@ const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
     (S::NullPointer, c"a pointer is null"),
     (S::Misaligned, c"a pointer is not aligned for what it points to"),
     (S::MemoryTooShort, c"the memory is shorter than meniscus_size says"),
-    (S::Capacity, c"the capacity is not 1 to 524288, or no memory is so large"),
+    (S::Capacity, c"the capacity is not 1 to 4194304, or no memory is so large"),
     (S::ArrayTooShort, c"an array has fewer elements than there are discs"),
     (S::Side, c"the side is not a finite positive number"),
     (S::SideTooLarge, c"the side exceeds 65536 R0"),
@@ -150,7 +151,7 @@ const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
     (S::Id, c"the ids are not 0 to count - 1, each once"),
     (S::Strength, c"a strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT"),
     (S::NotInitialised, c"there are no discs: no run was set, or setting it failed"),
-    (S::Crowded, c"a mesh node would hold more than 4095 discs, or strengths of more than 2047"),
+    (S::Crowded, c"too many discs in one place: a mesh node holds 4095 discs, or strengths of 2047"),
     (S::StepTooShort, c"the largest force allows no step of even 2^-40 R0^2/D"),
     (S::TimeOverflow, c"time would exceed 2^24 R0^2/D, or the number of steps 2^64 - 1"),
     (S::HalfBox, c"a disc would move by half a box or more"),

@@ -228,8 +228,8 @@ fn check_start(configuration: &Configuration, entries: &Entries) -> Result<(), C
             }
         }
         Start::Rings { rings, spacing, per_ring } => {
-            let right = 1 + u64::from(per_ring) * (u64::from(rings) * (u64::from(rings) + 1) / 2);
-            if system.particles as u64 != right {
+            let right = 1 + u128::from(per_ring) * (u128::from(rings) * (u128::from(rings) + 1) / 2);
+            if system.particles as u128 != right {
                 let found = system.particles.to_string();
                 let expected =
                     format!("{right}, the number in {rings} rings of {per_ring}*n discs and the central one");

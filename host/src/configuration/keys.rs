@@ -578,7 +578,7 @@ mod tests {
     fn ranges_are_said_in_words() {
         let accepted = |name| key(name).map(Key::accepted).unwrap();
         assert_eq!(accepted("version"), "1");
-        assert_eq!(accepted("system.particles"), "a whole number from 1 to 524288");
+        assert_eq!(accepted("system.particles"), "a whole number from 1 to 4194304");
         assert_eq!(accepted("system.capillary_strength"), "a number from 0 to 1000, in kBT");
         assert_eq!(accepted("system.capillary_length"), "a number of at least 0.01 or inf, in R0");
         assert_eq!(accepted("physical.force"), "a finite number, in N");

@@ -46,7 +46,10 @@ fn step_message(error: StepError) -> &'static str {
     match error {
         StepError::NotInitialised => "there are no discs",
         StepError::Memory => "the memory does not fit the run",
-        StepError::Crowded => "a mesh node would hold more than 4095 discs; use a finer mesh or fewer discs",
+        StepError::Crowded => {
+            "too many discs are in one place (a mesh node holds 4095 discs, or strengths of 2047); \
+             use a finer mesh or fewer discs"
+        }
         StepError::StepTooShort => {
             "the largest force allows no step of 2⁻⁴⁰ R0²/D; \
              separate overlapping discs or raise motion.max_displacement"

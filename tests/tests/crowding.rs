@@ -1,0 +1,108 @@
+//! More discs than may all be in one place.
+
+use meniscus_core::assignment::Crowded;
+use meniscus_core::crowding::{Crowding, LARGEST_CELL, LARGEST_HEAP};
+use meniscus_core::dynamics::{Clock, Dynamics, ForceError, StepError};
+use meniscus_core::grid::Grid;
+use meniscus_core::pair_force::PairForce;
+use meniscus_core::parameters::{LARGEST_PARTICLE_COUNT, Parameters};
+use meniscus_core::repulsion::CUTOFF;
+use meniscus_core::stages::Scalar;
+use meniscus_core::torus::{Fraction, LARGEST_SIDE, Position};
+use meniscus_core::transform::AnySize;
+use meniscus_tests::arrays::Arrays;
+use meniscus_tests::states::with_ids;
+
+#[expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
+fn started(parameters: &Parameters, discs: &[Position]) -> (Dynamics, Arrays) {
+    let mut arrays = Arrays::new(parameters.grid, 1, discs.len());
+    let dynamics = Dynamics::new(parameters, Clock::START, with_ids(discs), &mut arrays.memory()).unwrap();
+    (dynamics, arrays)
+}
+
+/// Discs that only repel each other, one cell for each node.
+const REPELLING: Parameters =
+    Parameters { side: 4096.0, grid: 1024, capillary_strength: 0.0, ..Parameters::PAPER };
+
+/// `count` discs on a square lattice of 1024 × 1024, 4 R0 apart.
+fn spread(count: usize) -> Vec<Position> {
+    let place = |index: usize| Position::from_bits((index as u32 % 1024) << 22, (index as u32 / 1024) << 22);
+    (0..count).map(place).collect()
+}
+
+#[test]
+fn a_heap_of_more_than_two_to_the_19_discs_is_refused_and_stays() {
+    let (mut dynamics, mut arrays) = started(&REPELLING, &vec![Position::from_bits(7, 9); LARGEST_HEAP + 1]);
+    let stages = &mut Scalar(AnySize);
+    assert_eq!(dynamics.forces(stages, &mut arrays.memory()), Err(ForceError::Crowded));
+    assert_eq!(dynamics.step(stages, &mut arrays.memory()), Err(StepError::Crowded));
+    assert_eq!(dynamics.clock(), Clock::START);
+    assert!(arrays.x.iter().all(|x| x.to_bits() == 7) && arrays.y.iter().all(|y| y.to_bits() == 9));
+    // Without repulsion nothing adds up.
+    let free = Parameters { repulsion: false, ..REPELLING };
+    let (dynamics, mut arrays) = started(&free, &vec![Position::from_bits(7, 9); LARGEST_HEAP + 1]);
+    assert_eq!(dynamics.forces(stages, &mut arrays.memory()), Ok(()));
+}
+
+#[test]
+fn as_many_discs_side_by_side_are_not_refused() {
+    let discs = spread(LARGEST_HEAP + 1);
+    let (dynamics, mut arrays) = started(&REPELLING, &discs);
+    assert_eq!(dynamics.forces(&mut Scalar(AnySize), &mut arrays.memory()), Ok(()));
+    // 4 R0 apart they do not touch.
+    assert!(arrays.force_x.iter().chain(&arrays.force_y).all(|&force| force == 0));
+}
+
+#[test]
+fn a_cell_holds_two_to_the_15_discs_and_not_one_more() {
+    let crowding = Crowding::new(PairForce::repulsion(REPELLING.side).reach(), Grid::new(1024).unwrap());
+    let mut counts = vec![u32::MAX; 1024 * 1024];
+    // Two corners of one cell, in turns.
+    let corners = [(1 << 22, 2 << 22), ((2 << 22) - 1, (3 << 22) - 1)];
+    let heap = |count: u32| -> (Vec<Fraction>, Vec<Fraction>) {
+        let places = (0..count).map(|index| corners[index as usize % 2]);
+        places.map(|(x, y)| (Fraction::from_bits(x), Fraction::from_bits(y))).unzip()
+    };
+    let (mut x, mut y) = heap(LARGEST_CELL);
+    // Its neighbours are others.
+    x.extend([Fraction::from_bits(2 << 22), Fraction::from_bits((1 << 22) - 1)]);
+    y.extend([Fraction::from_bits(2 << 22), Fraction::from_bits(2 << 22)]);
+    assert_eq!(crowding.count((&x, &y), &mut counts), Ok(()));
+    assert_eq!(counts[2 * 1024 + 1], LARGEST_CELL);
+    assert_eq!(counts.iter().sum::<u32>(), LARGEST_CELL + 2);
+    let (x, y) = heap(LARGEST_CELL + 1);
+    assert_eq!(crowding.count((&x, &y), &mut counts), Err(Crowded));
+}
+
+#[test]
+fn cells_are_as_wide_as_the_repulsion_reaches_and_no_more_than_the_nodes() {
+    for exponent in 4..=12 {
+        let grid = Grid::new(1 << exponent).unwrap();
+        for side in [2.0 * CUTOFF * (1.0 + 1e-15), 4.0 * CUTOFF, 36.0, 37.0, 500.0, 10_000.0, LARGEST_SIDE] {
+            let cells = Crowding::new(PairForce::repulsion(side).reach(), grid).cells_a_side();
+            assert!(cells >= 2 && cells <= grid.nodes() && cells.is_power_of_two(), "{cells} in {side}");
+            assert!(side / cells as f64 >= CUTOFF * (1.0 - 1e-9), "{cells} in {side}");
+            // Twice as many would not do.
+            assert!(cells == grid.nodes() || side / (2 * cells) as f64 <= CUTOFF * (1.0 + 1e-6));
+        }
+    }
+    let none = Crowding::new(0, Grid::SMALLEST);
+    assert_eq!(none.cells_a_side(), 1);
+    assert!(!none.concerns(LARGEST_PARTICLE_COUNT));
+    let some = Crowding::new(1 << 20, Grid::SMALLEST);
+    assert!(some.concerns(LARGEST_HEAP + 1) && !some.concerns(LARGEST_HEAP));
+}
+
+#[test]
+fn two_to_the_22_discs_are_taken_and_not_one_more() {
+    assert_eq!(LARGEST_PARTICLE_COUNT, 1 << 22);
+    // Without forces, on the smallest mesh.
+    let parameters = Parameters { side: 256.0, grid: 16, repulsion: false, ..REPELLING };
+    let place = |id: u32| (id, Position::from_bits(id << 10, id.reverse_bits()));
+    let mut arrays = Arrays::new(16, 1, LARGEST_PARTICLE_COUNT + 1);
+    let run = |count: u32, arrays: &mut Arrays| {
+        Dynamics::new(&parameters, Clock::START, (0..count).map(place), &mut arrays.memory()).map(|_| ())
+    };
+    assert_eq!(run(1 << 22, &mut arrays), Ok(()));
+    assert!(run((1 << 22) + 1, &mut arrays).is_err());
+}
