@@ -10,4 +10,6 @@
 
 pub mod division;
 pub mod lanes;
+pub mod mesh;
 pub mod stages;
+pub mod transform;

@@ -1,6 +1,6 @@
 //! AVX2: eight numbers.
 
-use super::Lanes;
+use super::{Kernel, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Eight numbers in a register of 256 bits.
@@ -256,6 +256,83 @@ impl Lanes for Avx2 {
         // SAFETY: `self` says that AVX2 is there; only lanes with an index inside the table are read.
         unsafe {
             _mm256_mask_i32gather_epi32::<4>(_mm256_setzero_si256(), table.as_ptr().cast(), index, inside)
+        }
+    }
+
+    #[inline(always)]
+    fn interleave(self, a: __m256, b: __m256) -> (__m256, __m256) {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            let (low, high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+            (_mm256_permute2f128_ps::<0x20>(low, high), _mm256_permute2f128_ps::<0x31>(low, high))
+        }
+    }
+
+    #[inline(always)]
+    fn mirrored(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> __m256 {
+        // SAFETY: `self` says that AVX2 is there; elements 8 … 15 and 1 … 8 of sixteen are read.
+        unsafe {
+            if part == 0 {
+                let order = _mm256_setr_epi32(0, 7, 6, 5, 4, 3, 2, 1);
+                let rest = _mm256_permutevar8x32_ps(_mm256_loadu_ps(rest.as_ptr().add(8)), order);
+                _mm256_blend_ps::<1>(rest, _mm256_loadu_ps(first.as_ptr()))
+            } else {
+                let order = _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0);
+                _mm256_permutevar8x32_ps(_mm256_loadu_ps(rest.as_ptr().add(1)), order)
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
+        // SAFETY: `self` says that AVX2 is there; a block has 32 numbers, of which the eight from `half` + 0 or 8 and
+        // the four from there + 0 or 4 are read or written.
+        unsafe {
+            for half in [0, 16] {
+                for first in [0, 8] {
+                    let halves = |row: usize, column: usize| {
+                        let four = |row: usize| _mm_loadu_ps(from[row].0.as_ptr().add(half + column));
+                        _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(four(row)), four(row + 4))
+                    };
+                    for column in [0, 4, 8, 12] {
+                        let rows = [
+                            halves(first, column),
+                            halves(first + 1, column),
+                            halves(first + 2, column),
+                            halves(first + 3, column),
+                        ];
+                        let low = _mm256_unpacklo_ps(rows[0], rows[1]);
+                        let high = _mm256_unpackhi_ps(rows[0], rows[1]);
+                        let low_after = _mm256_unpacklo_ps(rows[2], rows[3]);
+                        let high_after = _mm256_unpackhi_ps(rows[2], rows[3]);
+                        let columns = [
+                            _mm256_shuffle_ps::<0b01_00_01_00>(low, low_after),
+                            _mm256_shuffle_ps::<0b11_10_11_10>(low, low_after),
+                            _mm256_shuffle_ps::<0b01_00_01_00>(high, high_after),
+                            _mm256_shuffle_ps::<0b11_10_11_10>(high, high_after),
+                        ];
+                        for (place, value) in columns.into_iter().enumerate() {
+                            _mm256_storeu_ps(to[column + place].0.as_mut_ptr().add(half + first), value);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe { super::level::avx2(kernel) }
+    }
+
+    #[inline(always)]
+    fn prefetch(self, block: &Sixteen) {
+        let first = block.0.as_ptr();
+        // SAFETY: a hint, which reads nothing.
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(first.cast());
+            _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(16).cast());
         }
     }
 }

@@ -1,6 +1,6 @@
 //! AVX-512: sixteen numbers.
 
-use super::Lanes;
+use super::{Kernel, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Sixteen numbers in a register of 512 bits.
@@ -246,6 +246,75 @@ impl Lanes for Avx512 {
         // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements.
         unsafe { _mm512_storeu_si512(to.as_mut_ptr().cast(), _mm512_maskz_compress_epi32(mask, a)) }
         mask.count_ones() as usize
+    }
+
+    #[inline(always)]
+    fn interleave(self, a: __m512, b: __m512) -> (__m512, __m512) {
+        // SAFETY: `self` says that AVX-512 is there.
+        unsafe {
+            let first = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+            let second = _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+            (_mm512_permutex2var_ps(a, first, b), _mm512_permutex2var_ps(a, second, b))
+        }
+    }
+
+    #[inline(always)]
+    fn mirrored(self, first: &[f32; 16], rest: &[f32; 16], _part: usize) -> __m512 {
+        // SAFETY: `self` says that AVX-512 is there, and the arrays have sixteen elements; they need not be aligned.
+        unsafe {
+            let order = _mm512_setr_epi32(0, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17);
+            _mm512_permutex2var_ps(_mm512_loadu_ps(first.as_ptr()), order, _mm512_loadu_ps(rest.as_ptr()))
+        }
+    }
+
+    #[inline(always)]
+    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
+        // SAFETY: `self` says that AVX-512 is there; a block has two registers of sixteen numbers.
+        unsafe {
+            for half in [0, 16] {
+                // Four lanes of four rows each in a register, so that lanes of 128 bits need not be crossed after this.
+                let quarters = |row: usize, column: usize| {
+                    let four = |row: usize| _mm_loadu_ps(from[row].0.as_ptr().add(half + column));
+                    let value = _mm512_castps128_ps512(four(row));
+                    let value = _mm512_insertf32x4::<1>(value, four(row + 4));
+                    let value = _mm512_insertf32x4::<2>(value, four(row + 8));
+                    _mm512_insertf32x4::<3>(value, four(row + 12))
+                };
+                for column in [0, 4, 8, 12] {
+                    let rows =
+                        [quarters(0, column), quarters(1, column), quarters(2, column), quarters(3, column)];
+                    let low = _mm512_unpacklo_ps(rows[0], rows[1]);
+                    let high = _mm512_unpackhi_ps(rows[0], rows[1]);
+                    let low_after = _mm512_unpacklo_ps(rows[2], rows[3]);
+                    let high_after = _mm512_unpackhi_ps(rows[2], rows[3]);
+                    let columns = [
+                        _mm512_shuffle_ps::<0b01_00_01_00>(low, low_after),
+                        _mm512_shuffle_ps::<0b11_10_11_10>(low, low_after),
+                        _mm512_shuffle_ps::<0b01_00_01_00>(high, high_after),
+                        _mm512_shuffle_ps::<0b11_10_11_10>(high, high_after),
+                    ];
+                    for (place, value) in columns.into_iter().enumerate() {
+                        _mm512_storeu_ps(to[column + place].0.as_mut_ptr().add(half), value);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        // SAFETY: `self` says that AVX-512 is there.
+        unsafe { super::level::avx512(kernel) }
+    }
+
+    #[inline(always)]
+    fn prefetch(self, block: &Sixteen) {
+        let first = block.0.as_ptr();
+        // SAFETY: a hint, which reads nothing.
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(first.cast());
+            _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(16).cast());
+        }
     }
 }
 

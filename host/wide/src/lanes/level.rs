@@ -83,6 +83,21 @@ impl Level {
         }
     }
 
+    /// How many numbers are side by side in a register, [`Lanes::WIDTH`].
+    #[must_use]
+    pub fn width(self) -> usize {
+        struct Width;
+        impl Kernel for Width {
+            type Output = usize;
+
+            #[inline(always)]
+            fn run<L: Lanes>(self, _lanes: L) -> usize {
+                L::WIDTH
+            }
+        }
+        self.dispatch(Width)
+    }
+
     /// Runs a kernel with these registers.
     #[inline]
     pub fn dispatch<K: Kernel>(self, kernel: K) -> K::Output {
@@ -109,14 +124,16 @@ impl Level {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn avx2<K: Kernel>(kernel: K) -> K::Output {
+#[inline(never)]
+pub(super) fn avx2<K: Kernel>(kernel: K) -> K::Output {
     // SAFETY: this function runs only where the processor has AVX2.
     kernel.run(unsafe { Avx2::assume() })
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512<K: Kernel>(kernel: K) -> K::Output {
+#[inline(never)]
+pub(super) fn avx512<K: Kernel>(kernel: K) -> K::Output {
     // SAFETY: this function runs only where the processor has these features.
     kernel.run(unsafe { Avx512::assume() })
 }

@@ -43,11 +43,13 @@ mod neon;
 mod portable;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod simd128;
+mod sixteen;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
 mod views;
 
 pub use level::{Kernel, Level};
+pub use sixteen::{Rows, Sixteen, complex_of_sixteens, complex_of_sixteens_mut};
 pub use views::bits_of_fractions;
 
 /// The largest [`Lanes::WIDTH`].
@@ -249,5 +251,58 @@ pub trait Lanes: Copy + Send + Sync + 'static {
             count += (bits >> lane & 1) as usize;
         }
         count
+    }
+
+    /// Pairs a₀ b₀ a₁ b₁ …, the first half of them and the second.
+    #[inline(always)]
+    fn interleave(self, a: Self::F32, b: Self::F32) -> (Self::F32, Self::F32) {
+        let (a, b) = (self.array_f32(a), self.array_f32(b));
+        let mut pairs = [0.0; 2 * LARGEST_WIDTH];
+        for (pair, (a, b)) in pairs.chunks_exact_mut(2).zip(a.into_iter().zip(b)) {
+            pair.copy_from_slice(&[a, b]);
+        }
+        let (first, second) = pairs.split_at(Self::WIDTH);
+        (self.load_f32(first), self.load_f32(second))
+    }
+
+    /// Lanes `part` … `part` + width − 1 of sixteen: `first[0]`, `rest[15]`, `rest[14]` … `rest[1]`.
+    ///
+    /// `part` is a multiple of the width below 16.
+    #[inline(always)]
+    fn mirrored(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> Self::F32 {
+        let mut array = [0.0; LARGEST_WIDTH];
+        for (lane, value) in array.iter_mut().enumerate().take(Self::WIDTH) {
+            let index = (16 - part - lane) & 15;
+            *value = if part + lane == 0 { first[0] } else { rest[index] };
+        }
+        self.load_f32(&array)
+    }
+
+    /// Transposes two squares of 16 × 16 numbers, the real and the imaginary parts: lane l of block r of the one is
+    /// lane r of block l of the other.
+    #[inline(always)]
+    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
+        for (row, to) in to.iter_mut().enumerate() {
+            for (column, from) in from.iter().enumerate() {
+                to.0[column] = from.0[row];
+                to.0[column + 16] = from.0[row + 16];
+            }
+        }
+    }
+
+    /// Runs a kernel as a function of its own, not as part of the one that calls it.
+    #[inline(always)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        #[inline(never)]
+        fn apart<K: Kernel, L: Lanes>(kernel: K, lanes: L) -> K::Output {
+            kernel.run(lanes)
+        }
+        apart(kernel, self)
+    }
+
+    /// Asks for a block to be brought near before it is needed. Changes nothing else.
+    #[inline(always)]
+    fn prefetch(self, block: &Sixteen) {
+        let _ = block;
     }
 }

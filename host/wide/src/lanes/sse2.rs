@@ -1,6 +1,6 @@
 //! SSE2: four numbers, on every x86-64.
 
-use super::Lanes;
+use super::{Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Four numbers in a register of 128 bits.
@@ -236,6 +236,65 @@ impl Lanes for Sse2 {
         let [a, b, c, d, ..] =
             self.array_u32(index).map(|index| table.get(index as usize).copied().unwrap_or(0));
         self.load_u32(&[a, b, c, d])
+    }
+
+    #[inline(always)]
+    fn interleave(self, a: __m128, b: __m128) -> (__m128, __m128) {
+        // SAFETY: SSE2 is there.
+        unsafe { (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b)) }
+    }
+
+    #[inline(always)]
+    fn mirrored(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> __m128 {
+        // SAFETY: SSE2 is there; elements 12 … 15 or 13 − part … 16 − part of sixteen are read.
+        unsafe {
+            if part == 0 {
+                let rest = _mm_loadu_ps(rest.as_ptr().add(12));
+                _mm_move_ss(_mm_shuffle_ps::<0b01_10_11_00>(rest, rest), _mm_loadu_ps(first.as_ptr()))
+            } else {
+                let rest = _mm_loadu_ps(rest.as_ptr().add(13 - (part & 12)));
+                _mm_shuffle_ps::<0b00_01_10_11>(rest, rest)
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
+        // SAFETY: SSE2 is there; a block has 32 numbers, of which four from a multiple of four are read or written.
+        unsafe {
+            for row in [0, 4, 8, 12] {
+                for column in [0, 4, 8, 12] {
+                    for half in [0, 16] {
+                        let load = |row: usize| _mm_loadu_ps(from[row].0.as_ptr().add(half + column));
+                        let (first, second) = (load(row), load(row + 1));
+                        let (third, fourth) = (load(row + 2), load(row + 3));
+                        let low = _mm_unpacklo_ps(first, second);
+                        let high = _mm_unpackhi_ps(first, second);
+                        let low_after = _mm_unpacklo_ps(third, fourth);
+                        let high_after = _mm_unpackhi_ps(third, fourth);
+                        let columns = [
+                            _mm_movelh_ps(low, low_after),
+                            _mm_movehl_ps(low_after, low),
+                            _mm_movelh_ps(high, high_after),
+                            _mm_movehl_ps(high_after, high),
+                        ];
+                        for (place, value) in columns.into_iter().enumerate() {
+                            _mm_storeu_ps(to[column + place].0.as_mut_ptr().add(half + row), value);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn prefetch(self, block: &Sixteen) {
+        let first = block.0.as_ptr();
+        // SAFETY: a hint, which reads nothing.
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(first.cast());
+            _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(16).cast());
+        }
     }
 }
 

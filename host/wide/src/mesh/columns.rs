@@ -1,0 +1,162 @@
+//! The first sweep: columns of the mesh along y, two real ones as a complex line.
+
+use super::GROUP;
+use crate::lanes::{Kernel, Lanes, Level, Sixteen};
+use crate::transform::{Along, Complex, LineSink, Source, load, store};
+use meniscus_core::grid::Grid;
+use meniscus_core::transform::Complex32;
+use rayon::prelude::*;
+
+/// What all columns share.
+#[derive(Clone, Copy)]
+pub(super) struct Columns<'a> {
+    pub(super) level: Level,
+    pub(super) along: &'a Along,
+    pub(super) grid: Grid,
+    /// Blocks of a line of the field.
+    pub(super) pitch: usize,
+    pub(super) signed: bool,
+}
+
+impl Columns<'_> {
+    /// Frequencies 0 … M/2 − 1 of all columns into the field, M/2 into `nyquist`.
+    ///
+    /// As in the core they are twice the spectra of the columns.
+    pub(super) fn transform(
+        self,
+        nodes: &[u32],
+        field: &mut [Sixteen],
+        nyquist: &mut [Complex32],
+        scratch: &mut [Sixteen],
+        pieces: usize,
+    ) {
+        let side = self.grid.nodes();
+        let (nodes, nodes_after) = nodes.split_at(nodes.len() / 2);
+        let (field, field_after) = field.split_at_mut(field.len() / 2);
+        let (nyquist, nyquist_after) = nyquist.split_at_mut(nyquist.len() / 2);
+        if pieces == 1 {
+            let fields = [field, field_after];
+            let piece =
+                Piece { nodes: [nodes, nodes_after], fields, nyquist: [nyquist, nyquist_after], scratch };
+            self.level.dispatch(Work { columns: self, piece });
+            return;
+        }
+        let lines = (side / 2 / GROUP).div_ceil(pieces) * GROUP;
+        let nodes = nodes.par_chunks(lines * side).zip(nodes_after.par_chunks(lines * side));
+        let blocks = lines * self.pitch;
+        let fields = field.par_chunks_mut(blocks).zip(field_after.par_chunks_mut(blocks));
+        let nyquist = nyquist.par_chunks_mut(lines).zip(nyquist_after.par_chunks_mut(lines));
+        let scratch = scratch.par_chunks_mut(scratch.len() / pieces);
+        nodes.zip(fields).zip(nyquist).zip(scratch).for_each(|(((nodes, fields), nyquist), scratch)| {
+            let (nodes, fields, nyquist) = (nodes.into(), fields.into(), nyquist.into());
+            self.level.dispatch(Work { columns: self, piece: Piece { nodes, fields, nyquist, scratch } });
+        });
+    }
+}
+
+/// Some columns x < M/2, and as many from x + M/2 on.
+struct Piece<'a> {
+    nodes: [&'a [u32]; 2],
+    fields: [&'a mut [Sixteen]; 2],
+    nyquist: [&'a mut [Complex32]; 2],
+    scratch: &'a mut [Sixteen],
+}
+
+struct Work<'a> {
+    columns: Columns<'a>,
+    piece: Piece<'a>,
+}
+
+impl Kernel for Work<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { columns: Columns { along, grid, pitch, signed, .. }, piece } = self;
+        let Piece {
+            nodes: [left, right],
+            fields: [first, second],
+            nyquist: [nyquist, nyquist_after],
+            scratch,
+        } = piece;
+        let side = grid.nodes();
+        let blocks = along.blocks();
+        let (scratch, spectrum) = scratch.split_at_mut(blocks);
+        let spectrum = &mut spectrum[..blocks];
+        let masses = left.chunks_exact(side).zip(right.chunks_exact(side));
+        let ends = nyquist.iter_mut().zip(nyquist_after);
+        for (x, ((left, right), (end, end_after))) in masses.zip(ends).enumerate() {
+            along.begin(lanes, scratch, &Masses { left, right, signed });
+            along.finish(lanes, scratch, &mut Spectrum(spectrum));
+            let place = x / GROUP * GROUP * pitch + x % GROUP;
+            lanes.apart(Split { spectrum, first: &mut first[place..], second: &mut second[place..] });
+            // Frequency M/2 is its own mirror.
+            let (re, im) = (spectrum[blocks / 2].re()[0], spectrum[blocks / 2].im()[0]);
+            *end = Complex32::new(re + re, im - im);
+            *end_after = Complex32::new(im + im, re - re);
+        }
+    }
+}
+
+/// Two columns of node masses as a complex line.
+struct Masses<'a> {
+    left: &'a [u32],
+    right: &'a [u32],
+    signed: bool,
+}
+
+impl Source for Masses<'_> {
+    #[inline(always)]
+    fn load<L: Lanes>(&self, lanes: L, index: usize, _upper: bool, part: usize) -> Complex<L> {
+        let first = 16 * index + part;
+        let left = lanes.load_u32(&self.left[first..first + L::WIDTH]);
+        let right = lanes.load_u32(&self.right[first..first + L::WIDTH]);
+        if self.signed {
+            Complex { re: lanes.of_i32(left), im: lanes.of_i32(right) }
+        } else {
+            Complex { re: lanes.of_u32(left), im: lanes.of_u32(right) }
+        }
+    }
+}
+
+/// A line of frequencies in their order.
+struct Spectrum<'a>(&'a mut [Sixteen]);
+
+impl LineSink for Spectrum<'_> {
+    #[inline(always)]
+    fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>) {
+        store(lanes, value, &mut self.0[block], part);
+    }
+}
+
+/// Separates the spectra of the two columns in a line, frequencies 0 … M/2 − 1.
+struct Split<'a> {
+    spectrum: &'a [Sixteen],
+    first: &'a mut [Sixteen],
+    second: &'a mut [Sixteen],
+}
+
+impl Kernel for Split<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let blocks = self.spectrum.len();
+        let places = self.first.iter_mut().step_by(GROUP).zip(self.second.iter_mut().step_by(GROUP));
+        for (block, (first, second)) in places.take(blocks / 2).enumerate() {
+            let mirror = &self.spectrum[(blocks - block) & (blocks - 1)];
+            let mirrors = &self.spectrum[blocks - block - 1];
+            for part in (0..16).step_by(L::WIDTH) {
+                let z = load(lanes, &self.spectrum[block], part);
+                let w: Complex<L> = Complex {
+                    re: lanes.mirrored(mirror.re(), mirrors.re(), part),
+                    im: lanes.mirrored(mirror.im(), mirrors.im(), part),
+                };
+                let left = Complex { re: lanes.add(z.re, w.re), im: lanes.sub(z.im, w.im) };
+                let right = Complex { re: lanes.add(z.im, w.im), im: lanes.sub(w.re, z.re) };
+                store(lanes, left, first, part);
+                store(lanes, right, second, part);
+            }
+        }
+    }
+}
