@@ -178,7 +178,8 @@ impl Lanes for Avx2 {
             unsafe { _mm256_storeu_ps(whole.as_mut_ptr(), value) }
         } else {
             let mut array = [0.0; WIDTH];
-            self.store_f32(value, &mut array);
+            // SAFETY: as above.
+            unsafe { _mm256_storeu_ps(array.as_mut_ptr(), value) }
             store_part(array, to);
         }
     }
@@ -204,7 +205,8 @@ impl Lanes for Avx2 {
             unsafe { _mm256_storeu_si256(whole.as_mut_ptr().cast(), value) }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u32(value, &mut array);
+            // SAFETY: as above.
+            unsafe { _mm256_storeu_si256(array.as_mut_ptr().cast(), value) }
             store_part(array, to);
         }
     }
@@ -235,7 +237,12 @@ impl Lanes for Avx2 {
             }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u64(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe {
+                _mm256_storeu_si256(first.cast(), value[0]);
+                _mm256_storeu_si256(first.add(4).cast(), value[1]);
+            }
             store_part(array, to);
         }
     }

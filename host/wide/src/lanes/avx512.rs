@@ -162,7 +162,8 @@ impl Lanes for Avx512 {
             unsafe { _mm512_storeu_ps(whole.as_mut_ptr(), value) }
         } else {
             let mut array = [0.0; WIDTH];
-            self.store_f32(value, &mut array);
+            // SAFETY: as above.
+            unsafe { _mm512_storeu_ps(array.as_mut_ptr(), value) }
             store_part(array, to);
         }
     }
@@ -188,7 +189,8 @@ impl Lanes for Avx512 {
             unsafe { _mm512_storeu_si512(whole.as_mut_ptr().cast(), value) }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u32(value, &mut array);
+            // SAFETY: as above.
+            unsafe { _mm512_storeu_si512(array.as_mut_ptr().cast(), value) }
             store_part(array, to);
         }
     }
@@ -219,7 +221,12 @@ impl Lanes for Avx512 {
             }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u64(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe {
+                _mm512_storeu_si512(first.cast(), value[0]);
+                _mm512_storeu_si512(first.add(8).cast(), value[1]);
+            }
             store_part(array, to);
         }
     }

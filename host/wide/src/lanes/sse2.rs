@@ -162,7 +162,8 @@ impl Lanes for Sse2 {
             unsafe { _mm_storeu_ps(whole.as_mut_ptr(), value) }
         } else {
             let mut array = [0.0; WIDTH];
-            self.store_f32(value, &mut array);
+            // SAFETY: as above.
+            unsafe { _mm_storeu_ps(array.as_mut_ptr(), value) }
             store_part(array, to);
         }
     }
@@ -188,7 +189,8 @@ impl Lanes for Sse2 {
             unsafe { _mm_storeu_si128(whole.as_mut_ptr().cast(), value) }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u32(value, &mut array);
+            // SAFETY: as above.
+            unsafe { _mm_storeu_si128(array.as_mut_ptr().cast(), value) }
             store_part(array, to);
         }
     }
@@ -219,7 +221,12 @@ impl Lanes for Sse2 {
             }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u64(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe {
+                _mm_storeu_si128(first.cast(), value[0]);
+                _mm_storeu_si128(first.add(2).cast(), value[1]);
+            }
             store_part(array, to);
         }
     }
