@@ -2,9 +2,11 @@
 //!
 //! All little-endian: magic `MENISCUS` (8 bytes), format version (u32), number of discs n (u32), step (u64), time
 //! (u64, unit 2⁻⁴⁰ R0²/D), then the x of disc 0 … n−1 (u32 each, unit L·2⁻³²), then the y likewise. Optional parts follow
-//! as tagged sections: a tag (4 bytes), the number of bytes in the section (u64), the section. There is one so far,
-//! [`STRENGTHS_TAG`], the capillary strengths of disc 0 … n−1 (i32 each, unit 2⁻²⁰), written unless all of them
-//! are 1. Storage order, capacity and box crossings are not in it.
+//! as tagged sections: a tag (4 bytes), the number of bytes in the section (u64), the section. There are two, in this
+//! order. [`STRENGTHS_TAG`]: the capillary strengths of disc 0 … n−1 (i32 each, unit 2⁻²⁰), written unless all of them
+//! are 1. [`HELD_TAG`]: the mesh forces held over several steps ([`crate::refresh`]), of disc 0 … n−1 in turn its reference
+//! x and y (u32 each, unit L·2⁻³²) and the force along x and y (i64 each, unit 2⁻²⁴ kBT/R0), written if a run holds any.
+//! Storage order, capacity and box crossings are not in it.
 //!
 //! The digest is SHA-256 over these bytes: `sha256sum` of a state file prints the same.
 //!
@@ -13,12 +15,13 @@
 //! use meniscus_core::torus::Fraction;
 //!
 //! let (x, y) = ([Fraction::from_bits(1)], [Fraction::from_bits(2)]);
-//! let state = State { step: 0, time: 0, slots: &[0], x: &x, y: &y, strengths: &[] };
+//! let state = State { slots: &[0], x: &x, y: &y, ..State::default() };
 //! let digest = state.digest();
 //! assert_eq!(digest.length, 40);
 //! assert_eq!(format!("{digest}").len(), 64);
 //! ```
 
+use crate::refresh::{HeldForce, HeldForces};
 use crate::torus::Fraction;
 use core::fmt;
 use sha2::{Digest as _, Sha256};
@@ -32,8 +35,11 @@ pub const FORMAT_VERSION: u32 = 1;
 /// The tag of the section that holds capillary strengths.
 pub const STRENGTHS_TAG: [u8; 4] = *b"STRE";
 
+/// The tag of the section that holds held mesh forces.
+pub const HELD_TAG: [u8; 4] = *b"HELD";
+
 /// What a state's bytes are made of.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct State<'a> {
     /// Steps done.
     pub step: u64,
@@ -47,6 +53,8 @@ pub struct State<'a> {
     pub y: &'a [Fraction],
     /// Capillary strength of each slot, unit 2⁻²⁰; empty if all of them are 1.
     pub strengths: &'a [i32],
+    /// Mesh forces that are held.
+    pub held: HeldForces<'a>,
 }
 
 /// Length and SHA-256 of a byte string. Displays as 64 hexadecimal digits.
@@ -90,6 +98,7 @@ impl State<'_> {
         self.write_section(self.x, &mut sink);
         self.write_section(self.y, &mut sink);
         self.write_strengths(&mut sink);
+        self.write_held(&mut sink);
     }
 
     /// Hands the section of the strengths to `sink`, if there is one.
@@ -101,6 +110,18 @@ impl State<'_> {
         sink(&(4 * self.slots.len() as u64).to_le_bytes());
         for strength in self.slots.iter().filter_map(|&slot| self.strengths.get(slot as usize)) {
             sink(&strength.to_le_bytes());
+        }
+    }
+
+    /// Hands the section of the held forces to `sink`, if there is one.
+    fn write_held(&self, mut sink: impl FnMut(&[u8])) {
+        if self.held.is_empty() {
+            return;
+        }
+        sink(&HELD_TAG);
+        sink(&(HeldForce::LENGTH as u64 * self.slots.len() as u64).to_le_bytes());
+        for held in self.slots.iter().filter_map(|&slot| self.held.at(slot as usize)) {
+            sink(&held.to_bytes());
         }
     }
 

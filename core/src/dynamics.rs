@@ -21,7 +21,7 @@
 //!     force_x: &mut [0; 2], force_y: &mut [0; 2],
 //!     displacement_x: &mut [0; 2], displacement_y: &mut [0; 2], strengths: &mut [0; 2], next: &mut [0; 2],
 //!     nodes: &mut [0; M * M], field: &mut [zero; M * M], lines: &mut [zero; 2 * M],
-//!     influence: &mut [0.0; influence_length(M)], gradient: &mut [0.0; M], near: &mut [],
+//!     influence: &mut [0.0; influence_length(M)], gradient: &mut [0.0; M], ..Memory::default()
 //! };
 //! let parameters = Parameters { grid: M, side: 16.0, ..Parameters::default() };
 //! let discs = [(0, Position::from_bits(0, 0)), (1, Position::from_bits(1 << 31, 0))];
@@ -42,9 +42,12 @@ use crate::near_part::{fill_table, table_length};
 use crate::noise::{Purpose, StepKey, ThermalKick};
 use crate::pair_force::near_cutoff;
 use crate::parameters::{LARGEST_CAPILLARY_STRENGTH, LARGEST_STRENGTH, Noise, ParameterError, Parameters};
+use crate::refresh::{HeldForce, HeldForces, Refresh};
 use crate::stages::Stages;
 use crate::torus::{Fraction, Position, UNITS};
 use crate::units::TIME_UNITS;
+
+use core::mem::swap;
 
 pub use crate::forces::ForceError;
 pub use crate::memory::Memory;
@@ -70,6 +73,9 @@ pub struct Step {
     pub length: u64,
     /// The largest modulus of the forces before the step, rounded up, unit 2⁻²⁴ kBT/R0.
     pub largest_force: u64,
+    /// Whether the force of the mesh was computed anew, as it is in every step that does not find it held. If forces are
+    /// held, it is held from now on, and the one before is in `fresh_x` and `fresh_y` of the [`Memory`].
+    pub refreshed: bool,
     /// Steps done and time reached after it.
     pub clock: Clock,
 }
@@ -131,6 +137,14 @@ pub enum InitError {
     },
     /// An array of the memory is too short.
     Memory,
+    /// `mesh_refresh` is not 0, and there is no room to hold the mesh forces of so many discs.
+    NoRoomToHold,
+    /// The forces to go on with are not those of a run of these discs: not as many, or that of disc `id` is larger than a
+    /// mesh can exert.
+    HeldForce {
+        /// The first disc at fault.
+        id: u32,
+    },
 }
 
 /// A disc where a run begins.
@@ -156,6 +170,8 @@ impl From<(u32, Position)> for Disc {
 #[derive(Clone, Copy, Debug)]
 pub struct Dynamics {
     count: usize,
+    /// Whether mesh forces are held.
+    is_held: bool,
     clock: Clock,
     seed: u64,
     limits: StepLimits,
@@ -171,6 +187,7 @@ impl Dynamics {
     pub const fn blank() -> Self {
         Self {
             count: 0,
+            is_held: false,
             clock: Clock::START,
             seed: 0,
             limits: StepLimits::blank(),
@@ -199,6 +216,9 @@ impl Dynamics {
             return Err(InitError::Memory);
         }
         let count = take_discs(discs, memory)?;
+        if parameters.mesh_refresh > 0.0 && memory.room_to_hold() < count {
+            return Err(InitError::NoRoomToHold);
+        }
         check_strengths(parameters.capillary_strength, &memory.discs(count))?;
         fill_influence(parameters, memory.influence);
         fill_gradient(parameters, memory.gradient);
@@ -207,6 +227,7 @@ impl Dynamics {
         }
         Ok(Self {
             count,
+            is_held: false,
             clock,
             seed: parameters.seed,
             limits: StepLimits::new(parameters.max_step, parameters.max_displacement),
@@ -214,6 +235,55 @@ impl Dynamics {
             units: (UNITS / parameters.side) as f32,
             noise: parameters.noise,
         })
+    }
+
+    /// Goes on with the mesh forces that were held where the run stands, given in the order of ids, so that it does so
+    /// bit for bit. A run that holds none ignores them.
+    ///
+    /// # Errors
+    /// [`InitError::HeldForce`], or [`InitError::NoRoomToHold`] if the memory has become too short; nothing is held then.
+    pub fn hold(
+        &mut self,
+        held: impl IntoIterator<Item = HeldForce>,
+        memory: &mut Memory<'_>,
+    ) -> Result<(), InitError> {
+        self.is_held = false;
+        if !self.refresh().holds() {
+            return Ok(());
+        }
+        if memory.room_to_hold().min(memory.capacity()) < self.count {
+            return Err(InitError::NoRoomToHold);
+        }
+        let Memory { slots, held_x, held_y, reference_x, reference_y, .. } = memory.discs(self.count);
+        let mut held = held.into_iter();
+        for (id, &slot) in (0..).zip(slots.iter()) {
+            let possible = held.next().filter(|held| held.is_possible(self.count));
+            let HeldForce { reference, force } = possible.ok_or(InitError::HeldForce { id })?;
+            let slot = slot as usize;
+            let forces = held_x.get_mut(slot).zip(held_y.get_mut(slot));
+            let places = reference_x.get_mut(slot).zip(reference_y.get_mut(slot));
+            if let (Some(target), Some(place)) = (forces, places) {
+                (*target.0, *target.1) = force;
+                (*place.0, *place.1) = (reference.x, reference.y);
+            }
+        }
+        if held.next().is_some() {
+            return Err(InitError::HeldForce { id: self.count as u32 });
+        }
+        self.is_held = true;
+        Ok(())
+    }
+
+    /// When held mesh forces are computed anew; [`Refresh::NEVER`] if none are held, also for want of attraction.
+    #[must_use]
+    pub fn refresh(&self) -> Refresh {
+        self.forces.refresh()
+    }
+
+    /// Whether the next step finds the force of the mesh held, unless a disc has moved too far.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.is_held
     }
 
     /// Number of discs.
@@ -235,10 +305,12 @@ impl Dynamics {
         slots: &'a [u32],
         (x, y): (&'a [Fraction], &'a [Fraction]),
         strengths: &'a [i32],
+        held: HeldForces<'a>,
     ) -> State<'a> {
         let slots = slots.get(..self.count).unwrap_or(&[]);
         let strengths = if self.forces.strengths_are_equal() { &[] } else { strengths };
-        State { step: self.clock.step, time: self.clock.time, slots, x, y, strengths }
+        let held = if self.is_held { held } else { HeldForces::default() };
+        State { step: self.clock.step, time: self.clock.time, slots, x, y, strengths, held }
     }
 
     /// Computes the force on every disc at its present position into `force_x` and `force_y`.
@@ -246,7 +318,12 @@ impl Dynamics {
     /// # Errors
     /// A [`ForceError`]; the state is not touched either way.
     pub fn forces<S: Stages>(&self, stages: &mut S, memory: &mut Memory<'_>) -> Result<(), ForceError> {
-        self.forces.compute(stages, self.count, memory)
+        self.compute(stages, memory).map(|_| ())
+    }
+
+    /// Computes the forces and tells whether that of the mesh was computed anew.
+    fn compute<S: Stages>(&self, stages: &mut S, memory: &mut Memory<'_>) -> Result<bool, ForceError> {
+        self.forces.compute(stages, self.count, self.is_held, memory)
     }
 
     /// Computes the forces and tells how long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the
@@ -269,19 +346,23 @@ impl Dynamics {
     /// # Errors
     /// A [`StepError`]; the state is then as it was.
     pub fn step<S: Stages>(&mut self, stages: &mut S, memory: &mut Memory<'_>) -> Result<Step, StepError> {
-        let (length, largest_force) = self.next_step(stages, memory)?;
-        if length == 0 {
-            return Err(StepError::StepTooShort);
-        }
+        let refreshed = self.compute(stages, memory)?;
+        let discs = &mut memory.discs(self.count);
+        let largest_force = stages.largest_force(discs);
+        let length = self.limits.step_length(largest_force).ok_or(StepError::StepTooShort)?;
         let clock = Clock {
             step: self.clock.step.checked_add(1).ok_or(StepError::TimeOverflow)?,
             time: self.clock.time.checked_add(length).ok_or(StepError::TimeOverflow)?,
         };
-        let discs = &mut memory.discs(self.count);
         stages.displacements(&self.displacement(length), discs).map_err(|HalfBox| StepError::HalfBox)?;
+        // Nothing fails any more.
+        if refreshed && self.refresh().holds() {
+            keep_forces(discs);
+            self.is_held = true;
+        }
         stages.displace(discs);
         self.clock = clock;
-        Ok(Step { length, largest_force, clock })
+        Ok(Step { length, largest_force, refreshed, clock })
     }
 
     /// What moves the discs in a step of this length.
@@ -291,6 +372,14 @@ impl Dynamics {
         let kick = ThermalKick::new(self.noise, step_length, key);
         Displacement { step_length, units: self.units, kick }
     }
+}
+
+/// Keeps the fresh mesh forces and where the discs are; what was held before becomes fresh.
+fn keep_forces(discs: &mut Memory<'_>) {
+    discs.held_x.iter_mut().zip(discs.fresh_x.iter_mut()).for_each(|(held, fresh)| swap(held, fresh));
+    discs.held_y.iter_mut().zip(discs.fresh_y.iter_mut()).for_each(|(held, fresh)| swap(held, fresh));
+    discs.reference_x.iter_mut().zip(discs.x.iter()).for_each(|(reference, &x)| *reference = x);
+    discs.reference_y.iter_mut().zip(discs.y.iter()).for_each(|(reference, &y)| *reference = y);
 }
 
 /// Takes the discs in the order given; checks that their ids are 0 … n−1, each once.

@@ -24,6 +24,7 @@ use crate::dynamics::{Clock, Disc, Dynamics, ForceError, InitError, Memory, Step
 use crate::mesh::LINES;
 use crate::near_part::{LARGEST_TABLE, Segment};
 use crate::parameters::Parameters;
+use crate::refresh::{HeldForce, HeldForces};
 use crate::stages::Scalar;
 use crate::torus::{Fraction, Position};
 use crate::transform::{Complex32, FixedSize};
@@ -43,8 +44,34 @@ use crate::transform::{Complex32, FixedSize};
 /// type Small = Engine<16, 32, { table_length(6.0) }>;
 /// assert!(size_of::<Small>() < 9 * 1024);
 /// ```
+///
+/// A run that holds mesh forces (`mesh_refresh` of the parameters) takes 40 bytes more for each disc; HELD says for how many there
+/// is room, N or 0. A run that takes more is refused.
+///
+/// ```
+/// use meniscus_core::dynamics::InitError;
+/// use meniscus_core::engine::Engine;
+/// use meniscus_core::near_part::LARGEST_TABLE;
+/// use meniscus_core::parameters::Parameters;
+/// use meniscus_core::torus::Position;
+///
+/// let parameters = Parameters { mesh_refresh: 0.3, ..Parameters::default() };
+/// let discs = [(0, Position::from_bits(0, 0)), (1, Position::from_bits(1 << 29, 0))];
+/// let mut engine = Engine::<64, 2>::new();
+/// assert_eq!(engine.init(&parameters, discs), Err(InitError::NoRoomToHold));
+/// let mut engine = Engine::<64, 2, LARGEST_TABLE, 2>::new();
+/// engine.init(&parameters, discs).unwrap();
+/// assert!(engine.step().unwrap().refreshed);
+/// assert!(!engine.step().unwrap().refreshed);
+/// assert!(engine.held(1).unwrap().force.0 < 0);
+/// ```
 #[derive(Debug)]
-pub struct Engine<const M: usize, const N: usize, const SEGMENTS: usize = LARGEST_TABLE> {
+pub struct Engine<
+    const M: usize,
+    const N: usize,
+    const SEGMENTS: usize = LARGEST_TABLE,
+    const HELD: usize = 0,
+> {
     dynamics: Dynamics,
     ids: [u32; N],
     slots: [u32; N],
@@ -57,6 +84,12 @@ pub struct Engine<const M: usize, const N: usize, const SEGMENTS: usize = LARGES
     displacement_x: [i32; N],
     displacement_y: [i32; N],
     strengths: [i32; N],
+    held_x: [i64; HELD],
+    held_y: [i64; HELD],
+    fresh_x: [i64; HELD],
+    fresh_y: [i64; HELD],
+    reference_x: [Fraction; HELD],
+    reference_y: [Fraction; HELD],
     next: [u32; N],
     nodes: [[u32; M]; M],
     field: [[Complex32; M]; M],
@@ -66,13 +99,15 @@ pub struct Engine<const M: usize, const N: usize, const SEGMENTS: usize = LARGES
     near: [Segment; SEGMENTS],
 }
 
-impl<const M: usize, const N: usize, const SEGMENTS: usize> Default for Engine<M, N, SEGMENTS> {
+impl<const M: usize, const N: usize, const SEGMENTS: usize, const HELD: usize> Default
+    for Engine<M, N, SEGMENTS, HELD>
+{
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENTS> {
+impl<const M: usize, const N: usize, const SEGMENTS: usize, const HELD: usize> Engine<M, N, SEGMENTS, HELD> {
     /// An engine without discs, all bits zero, so that a `static` of it takes no room in the program's file.
     #[must_use]
     pub const fn new() -> Self {
@@ -90,6 +125,12 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
             displacement_x: [0; N],
             displacement_y: [0; N],
             strengths: [0; N],
+            held_x: [0; HELD],
+            held_y: [0; HELD],
+            fresh_x: [0; HELD],
+            fresh_y: [0; HELD],
+            reference_x: [Fraction::ZERO; HELD],
+            reference_y: [Fraction::ZERO; HELD],
             next: [0; N],
             nodes: [[0; M]; M],
             field: [[ZERO; M]; M],
@@ -133,6 +174,15 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
         Ok(())
     }
 
+    /// Goes on with the mesh forces that were held in the state the run was started from, given in the order of ids.
+    ///
+    /// # Errors
+    /// An [`InitError`]; the run then holds none, and computes them anew.
+    pub fn hold(&mut self, held: impl IntoIterator<Item = HeldForce>) -> Result<(), InitError> {
+        let (dynamics, mut memory) = self.parts();
+        dynamics.hold(held, &mut memory)
+    }
+
     /// Does one step and tells what happened.
     ///
     /// # Errors
@@ -166,7 +216,7 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
     /// The state as its canonical bytes see it; gives the digest.
     #[must_use]
     pub fn state(&self) -> State<'_> {
-        self.dynamics.state(&self.slots, (&self.x, &self.y), &self.strengths)
+        self.dynamics.state(&self.slots, (&self.x, &self.y), &self.strengths, self.held_forces())
     }
 
     /// Where disc `id` is.
@@ -197,6 +247,21 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
         Some((*self.force_x.get(slot)?, *self.force_y.get(slot)?))
     }
 
+    /// The mesh force that is held of disc `id`, and since where it was; none if none is.
+    #[must_use]
+    pub fn held(&self, id: u32) -> Option<HeldForce> {
+        self.held_forces().at(self.slot(id)?).filter(|_| self.dynamics.is_held())
+    }
+
+    fn held_forces(&self) -> HeldForces<'_> {
+        HeldForces {
+            reference_x: &self.reference_x,
+            reference_y: &self.reference_y,
+            force_x: &self.held_x,
+            force_y: &self.held_y,
+        }
+    }
+
     fn slot(&self, id: u32) -> Option<usize> {
         let slots = self.slots.get(..self.count())?;
         slots.get(id as usize).map(|&slot| slot as usize)
@@ -218,6 +283,12 @@ impl<const M: usize, const N: usize, const SEGMENTS: usize> Engine<M, N, SEGMENT
             displacement_x: &mut self.displacement_x,
             displacement_y: &mut self.displacement_y,
             strengths: &mut self.strengths,
+            held_x: &mut self.held_x,
+            held_y: &mut self.held_y,
+            fresh_x: &mut self.fresh_x,
+            fresh_y: &mut self.fresh_y,
+            reference_x: &mut self.reference_x,
+            reference_y: &mut self.reference_y,
             next: &mut self.next,
             nodes: self.nodes.as_flattened_mut(),
             field: self.field.as_flattened_mut(),

@@ -21,6 +21,7 @@ use crate::memory::Memory;
 use crate::near_part::table_length;
 use crate::pair_force::{PairForce, near_cutoff};
 use crate::parameters::{Assignment, Parameters};
+use crate::refresh::Refresh;
 use crate::stages::Stages;
 
 /// Why forces could not be computed.
@@ -57,6 +58,7 @@ pub struct Forces {
     pairs: PairForce,
     crowding: Crowding,
     fields: FieldForce,
+    refresh: Refresh,
     /// Length of the table of the near part.
     near: usize,
 }
@@ -72,6 +74,7 @@ impl Forces {
             pairs: PairForce::blank(),
             crowding: Crowding::blank(),
             fields: FieldForce::blank(),
+            refresh: Refresh::NEVER,
             near: 0,
         }
     }
@@ -88,6 +91,11 @@ impl Forces {
                 Coupling::Unequal
             };
         let repels = if parameters.repulsion { PairForce::repulsion(parameters.side).reach() } else { 0 };
+        // Where there is no force there is none to hold.
+        let refresh = match coupling {
+            Coupling::None => Refresh::NEVER,
+            Coupling::Equal | Coupling::Unequal => Refresh::new(parameters.mesh_refresh, parameters.side),
+        };
         Self {
             grid,
             assignment: parameters.assignment,
@@ -96,6 +104,7 @@ impl Forces {
             pairs: PairForce::new(parameters),
             crowding: Crowding::new(repels, grid),
             fields: FieldForce::new(&parameters.fields, parameters.side),
+            refresh,
             near: table_length(near_cutoff(parameters)),
         }
     }
@@ -135,6 +144,12 @@ impl Forces {
         &self.fields
     }
 
+    /// When held mesh forces are computed anew.
+    #[must_use]
+    pub fn refresh(&self) -> Refresh {
+        self.refresh
+    }
+
     /// Length of the table of the near part; 0 without.
     #[must_use]
     pub fn near_length(&self) -> usize {
@@ -153,12 +168,15 @@ impl Forces {
     fn fit<S: Stages>(&self, stages: &S, count: usize, memory: &Memory<'_>) -> bool {
         let cells = self.crowding.cells_a_side();
         memory.capacity() >= count
+            && (!self.refresh.holds() || memory.room_to_hold() >= count)
             && (!self.crowding.concerns(count) || memory.nodes.len() >= cells * cells)
             && memory.holds_tables(self.grid.nodes(), self.near)
             && stages.fits(self, memory)
     }
 
-    /// Computes the force on each of the first `count` discs into `force_x` and `force_y`.
+    /// Computes the force on each of the first `count` discs into `force_x` and `force_y`, and tells whether that of the
+    /// mesh was computed anew; if forces are to be held it is in `fresh_x` and `fresh_y` then. `is_held` says whether
+    /// some are.
     ///
     /// # Errors
     /// A [`ForceError`]; the state is not touched either way.
@@ -166,8 +184,9 @@ impl Forces {
         &self,
         stages: &mut S,
         count: usize,
+        is_held: bool,
         memory: &mut Memory<'_>,
-    ) -> Result<(), ForceError> {
+    ) -> Result<bool, ForceError> {
         if count == 0 {
             return Err(ForceError::NotInitialised);
         }
@@ -176,8 +195,9 @@ impl Forces {
         }
         let discs = &mut memory.discs(count);
         stages.arrange(self, discs);
-        self.check_crowding(discs)
-            .and_then(|()| stages.mesh(self, discs))
+        let is_fresh = self
+            .check_crowding(discs)
+            .and_then(|()| self.mesh(stages, is_held, discs))
             .map_err(|Crowded| ForceError::Crowded)?;
         if self.pairs.reach() > 0 {
             stages.add_pairs(self, discs);
@@ -185,6 +205,34 @@ impl Forces {
         if !self.fields.is_zero() {
             stages.add_fields(self, discs);
         }
-        Ok(())
+        Ok(is_fresh)
+    }
+
+    /// The force of the mesh, held or computed anew; tells whether it was computed.
+    fn mesh<S: Stages>(
+        &self,
+        stages: &mut S,
+        is_held: bool,
+        discs: &mut Memory<'_>,
+    ) -> Result<bool, Crowded> {
+        let reference = (&*discs.reference_x, &*discs.reference_y);
+        if is_held && !self.refresh.is_due(reference, (discs.x, discs.y)) {
+            copy(discs.held_x, discs.force_x);
+            copy(discs.held_y, discs.force_y);
+            return Ok(false);
+        }
+        stages.mesh(self, discs)?;
+        if self.refresh.holds() {
+            copy(discs.force_x, discs.fresh_x);
+            copy(discs.force_y, discs.fresh_y);
+        }
+        Ok(true)
+    }
+}
+
+/// Copies as many as there are of both; they are of one length.
+fn copy(from: &[i64], to: &mut [i64]) {
+    for (to, &from) in to.iter_mut().zip(from) {
+        *to = from;
     }
 }

@@ -42,6 +42,7 @@ pub mod pair_force;
 pub mod parameters;
 #[cfg(feature = "proptest")]
 pub mod property;
+pub mod refresh;
 pub mod repulsion;
 pub mod stages;
 pub mod stencil;

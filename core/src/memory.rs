@@ -15,8 +15,8 @@ use crate::torus::Fraction;
 use crate::transform::Complex32;
 
 /// The arrays a run works in. The first group has an element for each disc, in storage order except `slots`; n is
-/// at most the length of `ids`.
-#[derive(Debug)]
+/// at most the length of `ids`. The arrays of held forces have one too, or are empty if the run holds none.
+#[derive(Debug, Default)]
 pub struct Memory<'a> {
     /// Id of each disc.
     pub ids: &'a mut [u32],
@@ -40,6 +40,18 @@ pub struct Memory<'a> {
     pub displacement_y: &'a mut [i32],
     /// Capillary strength of each disc, unit 2⁻²⁰.
     pub strengths: &'a mut [i32],
+    /// Mesh force held along x, unit 2⁻²⁴ kBT/R0, see [`crate::refresh`].
+    pub held_x: &'a mut [i64],
+    /// Mesh force held along y.
+    pub held_y: &'a mut [i64],
+    /// Mesh force computed anew along x; after a step that kept it, the one that was held before.
+    pub fresh_x: &'a mut [i64],
+    /// Mesh force computed anew along y.
+    pub fresh_y: &'a mut [i64],
+    /// x where the held force was computed, unit L·2⁻³².
+    pub reference_x: &'a mut [Fraction],
+    /// y where the held force was computed.
+    pub reference_y: &'a mut [Fraction],
     /// The discs in the order of their cells.
     pub next: &'a mut [u32],
     /// M × M: node masses, unit 2⁻²⁰ discs; then, the field being solved, the ends of the cells.
@@ -73,6 +85,13 @@ impl Memory<'_> {
         lengths.min().unwrap_or(0).min(LARGEST_PARTICLE_COUNT)
     }
 
+    /// How many discs there is room to hold mesh forces of.
+    pub(crate) fn room_to_hold(&self) -> usize {
+        let forces = [self.held_x.len(), self.held_y.len(), self.fresh_x.len(), self.fresh_y.len()];
+        let references = [self.reference_x.len(), self.reference_y.len()];
+        forces.into_iter().chain(references).min().unwrap_or(0)
+    }
+
     /// Whether the tables are long enough for M nodes a side and `near` segments of the near part.
     pub(crate) fn holds_tables(&self, grid: usize, near: usize) -> bool {
         self.influence.len() >= influence_length(grid)
@@ -94,6 +113,12 @@ impl Memory<'_> {
             displacement_x: cut(self.displacement_x, count),
             displacement_y: cut(self.displacement_y, count),
             strengths: cut(self.strengths, count),
+            held_x: cut(self.held_x, count),
+            held_y: cut(self.held_y, count),
+            fresh_x: cut(self.fresh_x, count),
+            fresh_y: cut(self.fresh_y, count),
+            reference_x: cut(self.reference_x, count),
+            reference_y: cut(self.reference_y, count),
             next: cut(self.next, count),
             nodes: self.nodes,
             field: self.field,

@@ -127,6 +127,9 @@ pub struct Parameters {
     /// Cut-off r_c of the near part of [`Method::P3m`], R0; at least [`SMALLEST_CUTOFF`], below L/2. Not looked at
     /// otherwise.
     pub cutoff: f64,
+    /// How far δ a disc moves, R0, before the force of the mesh is computed anew; held until then, see
+    /// [`crate::refresh`]. 0 to compute it in every step, else in [`MESH_REFRESH_RANGE`] and below L/4.
+    pub mesh_refresh: f64,
     /// Nodes M along a side of the mesh: a power of two, 16 to 4096.
     pub grid: usize,
     /// Mass assignment.
@@ -157,6 +160,7 @@ impl Parameters {
         method: Method::ParticleMesh,
         splitting: 0.5,
         cutoff: 6.0,
+        mesh_refresh: 0.0,
         grid: 64,
         assignment: Assignment::TriangularShapedCloud,
         influence: Influence::Paper,
@@ -211,6 +215,8 @@ pub const SPLITTING_RANGE: (f64, f64) = (1e-5, 8.0);
 pub const LARGEST_SPLITTING_OF_SPACING: f64 = 0.7;
 /// Smallest cut-off of the near part, R0.
 pub const SMALLEST_CUTOFF: f64 = 1.0;
+/// Smallest and largest distance that a disc may move before the force of the mesh is computed anew, R0.
+pub const MESH_REFRESH_RANGE: (f64, f64) = (1.0 / 1048576.0, 16.0);
 /// Largest number of discs, 2²². Bounds the total force, see [`crate::units`].
 pub const LARGEST_PARTICLE_COUNT: usize = 1 << 22;
 /// Largest seed, 2⁶³ − 1.
@@ -247,6 +253,10 @@ pub enum ParameterError {
     Cutoff,
     /// The cut-off is not below half the side.
     CutoffTooLarge,
+    /// δ is neither 0 nor in [`MESH_REFRESH_RANGE`].
+    MeshRefresh,
+    /// δ is not below a quarter of the side: a disc might come back from so far in one step.
+    MeshRefreshTooLarge,
     /// The influence function does not belong to the method.
     Influence,
     /// The gradient does not belong to the method.
@@ -294,6 +304,12 @@ impl Parameters {
             return Err(ParameterError::GridTooFine);
         }
         self.validate_method(spacing)?;
+        if self.mesh_refresh != 0.0 && !within(self.mesh_refresh, MESH_REFRESH_RANGE) {
+            return Err(ParameterError::MeshRefresh);
+        }
+        if self.mesh_refresh >= 0.25 * self.side {
+            return Err(ParameterError::MeshRefreshTooLarge);
+        }
         if !self.fields.is_valid(self.side) {
             return Err(ParameterError::Fields);
         }

@@ -51,7 +51,7 @@ pub struct Simulation {
 
 impl Simulation {
     /// Places the discs as the configuration says. A start from a file takes its step and time too, if it has
-    /// them: the run goes on where that state was, bit for bit from a state file (the time in extended XYZ is exact up
+    /// them: the run goes on where that state was, bit for bit from a state file, held mesh forces and all (the time in extended XYZ is exact up
     /// to 8192 R0²/D). Capillary strengths in the file take the place of the default in the configuration kept here,
     /// and so in its Jeans' time.
     ///
@@ -70,7 +70,7 @@ impl Simulation {
         machinery: Machinery,
     ) -> Result<Self, SimulationError> {
         let torus = torus(&configuration)?;
-        let State { positions, step, time, strengths } = initial_state(&configuration, &torus)?;
+        let State { positions, step, time, strengths, held } = initial_state(&configuration, &torus)?;
         if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {
             configuration.strengths = start::settle_strengths(configuration.strengths, strengths, path)?;
         }
@@ -81,7 +81,10 @@ impl Simulation {
             strength: strengths.of(id as usize),
         });
         let clock = Clock { step, time };
-        let engine = Engine::with_machinery(machinery, &configuration.parameters(), clock, discs)?;
+        let mut engine = Engine::with_machinery(machinery, &configuration.parameters(), clock, discs)?;
+        if let Some(held) = held {
+            engine.hold(&held)?;
+        }
         Ok(Self { configuration, torus, engine })
     }
 

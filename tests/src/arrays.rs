@@ -3,6 +3,7 @@
 use meniscus_core::dynamics::Memory;
 use meniscus_core::influence::influence_length;
 use meniscus_core::near_part::{LARGEST_TABLE, Segment};
+use meniscus_core::refresh::HeldForces;
 use meniscus_core::torus::Fraction;
 use meniscus_core::transform::Complex32;
 
@@ -21,6 +22,12 @@ pub struct Arrays {
     pub displacement_x: Vec<i32>,
     pub displacement_y: Vec<i32>,
     pub strengths: Vec<i32>,
+    pub held_x: Vec<i64>,
+    pub held_y: Vec<i64>,
+    pub fresh_x: Vec<i64>,
+    pub fresh_y: Vec<i64>,
+    pub reference_x: Vec<Fraction>,
+    pub reference_y: Vec<Fraction>,
     pub next: Vec<u32>,
     pub nodes: Vec<u32>,
     pub field: Vec<Complex32>,
@@ -47,6 +54,12 @@ impl Arrays {
             displacement_x: vec![0; capacity],
             displacement_y: vec![0; capacity],
             strengths: vec![0; capacity],
+            held_x: vec![0; capacity],
+            held_y: vec![0; capacity],
+            fresh_x: vec![0; capacity],
+            fresh_y: vec![0; capacity],
+            reference_x: vec![Fraction::ZERO; capacity],
+            reference_y: vec![Fraction::ZERO; capacity],
             next: vec![0; capacity],
             nodes: vec![0; grid * grid],
             field: vec![zero; grid * grid],
@@ -54,6 +67,17 @@ impl Arrays {
             influence: vec![0.0; influence_length(grid)],
             gradient: vec![0.0; grid],
             near: vec![[0.0; 4]; LARGEST_TABLE],
+        }
+    }
+
+    /// What a run in these arrays holds.
+    #[must_use]
+    pub fn held(&self) -> HeldForces<'_> {
+        HeldForces {
+            reference_x: &self.reference_x,
+            reference_y: &self.reference_y,
+            force_x: &self.held_x,
+            force_y: &self.held_y,
         }
     }
 
@@ -71,6 +95,12 @@ impl Arrays {
             displacement_x: &mut self.displacement_x,
             displacement_y: &mut self.displacement_y,
             strengths: &mut self.strengths,
+            held_x: &mut self.held_x,
+            held_y: &mut self.held_y,
+            fresh_x: &mut self.fresh_x,
+            fresh_y: &mut self.fresh_y,
+            reference_x: &mut self.reference_x,
+            reference_y: &mut self.reference_y,
             next: &mut self.next,
             nodes: &mut self.nodes,
             field: &mut self.field,

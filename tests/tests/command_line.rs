@@ -131,6 +131,50 @@ fn a_stopped_run_goes_on_from_its_state_bit_for_bit() {
 }
 
 #[test]
+fn a_run_that_holds_mesh_forces_says_so_and_goes_on_bit_for_bit() {
+    let folder = folder_with_small();
+    let held = ["--set", "force.mesh_refresh=0.3"];
+    let output = start(folder.path(), &[&["run", "small.toml", "--out", "whole"], &held[..]].concat());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    let warning = "force.mesh_refresh 0.3: the force of the mesh is held until a disc has moved 0.3 R0, and the force \
+                   is less accurate than its scheme; the error of what is held is measured and told at the end";
+    assert!(said.contains(warning), "{said}");
+    assert!(said.contains("% saved; rms error of a force as old as it got "), "{said}");
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("whole/config.toml").contains("\nmesh_refresh = 0.3\n"));
+    let summary =
+        |run: &str| -> serde_json::Value { serde_json::from_str(&read(&format!("{run}/run.json"))).unwrap() };
+    let reuse = summary("whole")["force"]["mesh_refresh"].clone();
+    let number = |name: &str| reuse[name].as_f64().unwrap();
+    assert_eq!((number("distance"), reuse["steps"].clone()), (0.3, summary("whole")["step"].clone()));
+    assert!(number("transforms") > 1.0 && number("transforms") < number("steps"), "{reuse}");
+    assert!((number("saved") - (1.0 - number("transforms") / number("steps"))).abs() < 1e-12, "{reuse}");
+    assert!((0.001..0.2).contains(&number("measured_error")), "{reuse}");
+    // Stopped and gone on, from a state in which forces are held.
+    succeed(folder.path(), &[&["run", "small.toml", "--out", "part", "--until", "0.2"], &held[..]].concat());
+    assert!(fs::read(folder.path().join("part/final.state")).unwrap().windows(4).any(|four| four == b"HELD"));
+    assert_eq!(digest(folder.path(), "part"), digest(folder.path(), "part/final.state"));
+    let from = ["--set", "start.kind=file", "--set", "start.path=part/final.state"];
+    succeed(
+        folder.path(),
+        &[&["run", "part/config.toml", "--out", "rest", "--until", "0.5"], &from[..]].concat(),
+    );
+    assert_eq!(digest(folder.path(), "whole"), digest(folder.path(), "rest"));
+    // Without it the same state is a start like any other.
+    let off = ["--set", "force.mesh_refresh=0", "--until", "0.21"];
+    succeed(folder.path(), &[&["run", "small.toml", "--out", "off"], &from[..], &off[..]].concat());
+    assert_eq!(summary("off")["force"]["mesh_refresh"], serde_json::Value::Null);
+    assert_eq!(summary("off")["length"], 32 + 8 * 60);
+    succeed(folder.path(), &["verify", "whole/golden.toml"]);
+    refuse(
+        folder.path(),
+        &["run", "small.toml", "--set", "force.mesh_refresh=12"],
+        &["force.mesh_refresh", "12", "below a quarter of the box, 12 R0"],
+    );
+}
+
+#[test]
 fn looking_more_often_changes_nothing() {
     let folder = folder_with_small();
     succeed(folder.path(), &["run", "small.toml", "--out", "seldom"]);

@@ -208,6 +208,11 @@ fn fields_in(side: f64) -> impl Strategy<Value = Fields> {
     })
 }
 
+/// How far discs may move in a box of `side`.
+fn mesh_refresh(side: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), 1e-6_f64..(0.249 * side).min(16.0)]
+}
+
 /// Strengths that V0 = `capillary_strength` (kBT) allows.
 fn strengths_with(capillary_strength: f64) -> impl Strategy<Value = Strengths> {
     let largest = (0.999 * (1000.0 / capillary_strength.max(1e-3)).sqrt()).min(1000.0);
@@ -228,11 +233,11 @@ fn configuration() -> impl Strategy<Value = Configuration> {
                 (Just(mesh), Just(side), Just(start), Just(particles)),
                 capillary_strength().prop_flat_map(|strength| (Just(strength), strengths_with(strength))),
                 (capillary_length(), any::<bool>()),
-                (motion(), times(), output(), 0_u64..1 << 63, fields_in(side)),
+                (motion(), times(), output(), 0_u64..1 << 63, fields_in(side), mesh_refresh(side)),
             )
         })
         .prop_map(|((mesh, side, start, particles), (strength, strengths), (length, repulsion), rest)| {
-            let (motion, until, output, seed, fields) = rest;
+            let (motion, until, output, seed, fields, mesh_refresh) = rest;
             Configuration {
                 version: VERSION,
                 seed,
@@ -246,6 +251,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
                 },
                 strengths,
                 force: Force::ParticleMesh,
+                mesh_refresh,
                 mesh,
                 fields,
                 motion,

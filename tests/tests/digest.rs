@@ -106,7 +106,7 @@ fn the_digest_of_a_known_state_is_known() {
     // By sha256sum of the bytes: magic, version 1, 3 discs, step 7, time 2⁴¹, the x, the y.
     let x = [0x0102_0304, 0, 0xFFFF_FFFF].map(Fraction::from_bits);
     let y = [5, 0x8000_0000, 0xDEAD_BEEF].map(Fraction::from_bits);
-    let state = State { step: 7, time: 1 << 41, slots: &[0, 1, 2], x: &x, y: &y, strengths: &[] };
+    let state = State { step: 7, time: 1 << 41, slots: &[0, 1, 2], x: &x, y: &y, ..State::default() };
     let digest = state.digest();
     assert_eq!(digest.length, 56);
     assert_eq!(digest.to_string(), "8fd0b15ec9682412ca1265889c880e30e597a74a47794231ea9f8db66ba1df6d");
@@ -130,7 +130,7 @@ proptest! {
         for (slot, &(id, _)) in (0..).zip(&stored) {
             slots[id as usize] = slot;
         }
-        let state = State { step, time, slots: &slots, x: &x, y: &y, strengths: &[] };
+        let state = State { step, time, slots: &slots, x: &x, y: &y, ..State::default() };
         let expected = bytes_by_hand(step, time, &discs);
         prop_assert_eq!(bytes_of(&state), expected.clone());
         let digest = state.digest();
@@ -149,14 +149,14 @@ proptest! {
         let discs = scattered(1, 128);
         let (mut x, mut y) = coordinates(&discs);
         let slots: Vec<u32> = (0..128).collect();
-        let digest = State { step: 5, time: 9, slots: &slots, x: &x, y: &y, strengths: &[] }.digest();
-        let later = State { step: 5 ^ 1 << late, time: 9, slots: &slots, x: &x, y: &y, strengths: &[] }.digest();
+        let digest = State { step: 5, time: 9, slots: &slots, x: &x, y: &y, ..State::default() }.digest();
+        let later = State { step: 5 ^ 1 << late, time: 9, slots: &slots, x: &x, y: &y, ..State::default() }.digest();
         prop_assert_ne!(later, digest);
-        let later = State { step: 5, time: 9 ^ 1 << late, slots: &slots, x: &x, y: &y, strengths: &[] }.digest();
+        let later = State { step: 5, time: 9 ^ 1 << late, slots: &slots, x: &x, y: &y, ..State::default() }.digest();
         prop_assert_ne!(later, digest);
         let changed = if place < 128 { &mut x[place] } else { &mut y[place - 128] };
         *changed = Fraction::from_bits(changed.to_bits() ^ 1 << bit);
-        let moved = State { step: 5, time: 9, slots: &slots, x: &x, y: &y, strengths: &[] }.digest();
+        let moved = State { step: 5, time: 9, slots: &slots, x: &x, y: &y, ..State::default() }.digest();
         prop_assert_ne!(moved, digest);
     }
 }

@@ -67,7 +67,7 @@ proptest! {
     fn strengths_come_back_with_the_same_bits(
         torus in any_torus(), (positions, strengths) in any_discs(), step in any::<u64>(), with_clusters in any::<bool>(),
     ) {
-        let state = State { step, time: 1 << 40, positions, strengths: Some(strengths.clone()) };
+        let state = State { step, time: 1 << 40, positions, strengths: Some(strengths.clone()), ..State::default() };
         let bytes = state.to_bytes();
         prop_assert_eq!(bytes.len(), 32 + 8 * strengths.len() + 12 + 4 * strengths.len());
         prop_assert_eq!(State::from_bytes(&bytes).unwrap(), state.clone());
@@ -85,7 +85,7 @@ proptest! {
     fn a_damaged_state_with_strengths_is_read_or_refused(
         (positions, strengths) in any_discs(), place in any::<prop::sample::Index>(), byte in any::<u8>(),
     ) {
-        let state = State { step: 3, time: 4, positions, strengths: Some(strengths) };
+        let state = State { step: 3, time: 4, positions, strengths: Some(strengths), ..State::default() };
         let whole = state.to_bytes();
         let place = place.index(whole.len());
         // Without its section a state is whole.
@@ -130,12 +130,12 @@ proptest! {
         let frame = Frame { step, time, time_over_jeans, clustered, ..frame(&positions) };
         let text = frames(&torus, &[frame]);
         let state = extended_xyz::parse(Cursor::new(text), &torus, FrameChoice::Last).unwrap();
-        prop_assert_eq!(state, State { positions, step, time, strengths: None });
+        prop_assert_eq!(state, State { positions, step, time, ..State::default() });
     }
 
     #[test]
     fn states_give_the_same_bytes_again(positions in any_positions(), step in any::<u64>(), time in any::<u64>()) {
-        let state = State { step, time, positions, strengths: None };
+        let state = State { step, time, positions, ..State::default() };
         let bytes = state.to_bytes();
         prop_assert_eq!(bytes.len(), 32 + 8 * state.positions.len());
         prop_assert_eq!(State::from_bytes(&bytes).unwrap(), state);
@@ -143,7 +143,7 @@ proptest! {
 
     #[test]
     fn states_of_another_length_are_refused(positions in any_positions(), length in 0..500_usize) {
-        let mut bytes = State { step: 1, time: 2, positions, strengths: None }.to_bytes();
+        let mut bytes = State { step: 1, time: 2, positions, ..State::default() }.to_bytes();
         let expected = bytes.len();
         prop_assume!(length != expected);
         bytes.resize(length, 0);

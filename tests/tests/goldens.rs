@@ -96,6 +96,7 @@ fn goldens_cover_every_choice_of_scheme() {
         let of_method = |c: &Configuration| c.force.method() == method;
         assert!(has(&|c| of_method(c) && c.to_toml().contains("strengths = [1.0, -")));
     }
+    assert!(has(&|c| c.mesh_refresh > 0.0 && c.force.method() == Method::P3m));
     let has_field = |c: &Configuration| !FieldForce::new(&c.parameters().fields, c.system.side).is_zero();
     assert!(has(&has_field));
     assert!(has(&|c| c.system.capillary_length == f64::INFINITY && c.force.method() == Method::P3m));

@@ -133,7 +133,8 @@ fn memory_owned_elsewhere_changes_no_bit() {
                     .unwrap();
             for _ in 0..20 {
                 assert_eq!(dynamics.step(&mut Scalar(AnySize), &mut arrays.memory()), engine.step());
-                let state = dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths);
+                let state =
+                    dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths, arrays.held());
                 assert_eq!(state.digest(), engine.state().digest());
             }
         }

@@ -84,6 +84,7 @@ impl Stages for Moving {
             influence: memory.influence,
             gradient: memory.gradient,
             near: memory.near,
+            ..Memory::default()
         };
         scalar.mesh(forces, &mut lent)
     }
@@ -144,8 +145,8 @@ fn stages_of_another_engine_that_stores_the_discs_in_another_order_change_no_bit
         assert_eq!(other.step(&mut moving, &mut others.memory()), step);
         let stages = ["arrange", "mesh", "pairs", "largest", "displacements", "displace"];
         assert_eq!(std::mem::take(&mut moving.called), stages);
-        let state = dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths);
-        let same = other.state(&others.slots, (&others.x, &others.y), &others.strengths);
+        let state = dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths, arrays.held());
+        let same = other.state(&others.slots, (&others.x, &others.y), &others.strengths, others.held());
         assert_eq!(state.digest(), same.digest());
         let next = dynamics.next_step(&mut Scalar(AnySize), &mut arrays.memory());
         assert_eq!(other.next_step(&mut moving, &mut others.memory()), next);
@@ -166,7 +167,7 @@ fn a_stage_that_fails_leaves_the_state_as_it_was() {
     let mut moving = Moving::new();
     dynamics.step(&mut moving, &mut arrays.memory()).unwrap();
     let digest = |dynamics: &Dynamics, arrays: &Arrays| {
-        dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths).digest()
+        dynamics.state(&arrays.slots, (&arrays.x, &arrays.y), &arrays.strengths, arrays.held()).digest()
     };
     let before = digest(&dynamics, &arrays);
     for (stage, error) in [("mesh", StepError::Crowded), ("displacements", StepError::HalfBox)] {

@@ -111,7 +111,7 @@ fn digest(positions: Result<Vec<Position>, StartError>) -> String {
     let slots: Vec<u32> = (0..positions.len() as u32).collect();
     let (x, y): (Vec<Fraction>, Vec<Fraction>) =
         positions.iter().map(|position| (position.x, position.y)).unzip();
-    State { step: 0, time: 0, slots: &slots, x: &x, y: &y, strengths: &[] }.digest().to_string()
+    State { step: 0, time: 0, slots: &slots, x: &x, y: &y, ..State::default() }.digest().to_string()
 }
 
 #[test]

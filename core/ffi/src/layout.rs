@@ -242,6 +242,7 @@ pub(crate) unsafe fn parts<'a>(engine: *mut MeniscusEngine) -> (&'a mut Dynamics
             influence: layout.influence.exclusive(engine),
             gradient: layout.gradient.exclusive(engine),
             near: layout.near.exclusive(engine),
+            ..Memory::default()
         }
     };
     (dynamics, layout, memory)

@@ -46,6 +46,7 @@ use layout::{Element, Layout, Span};
 use meniscus_core::dynamics::{Clock, Disc, Dynamics};
 use meniscus_core::grid::Grid;
 use meniscus_core::parameters::Parameters;
+use meniscus_core::refresh::HeldForces;
 use meniscus_core::stages::Scalar;
 use meniscus_core::torus::{Fraction, Position, Torus};
 use meniscus_core::transform::AnySize;
@@ -424,7 +425,9 @@ pub unsafe extern "C" fn meniscus_digest(
         // SAFETY: the same.
         let strengths = unsafe { layout.strengths.shared(engine) };
         // SAFETY: `digest` as promised.
-        unsafe { put(digest, dynamics.state(slots, (x, y), strengths).digest().into()) }
+        unsafe {
+            put(digest, dynamics.state(slots, (x, y), strengths, HeldForces::default()).digest().into())
+        }
     };
     status_of(run())
 }

@@ -180,6 +180,8 @@ impl From<ParameterError> for MeniscusStatus {
             ParameterError::SplittingTooLarge => Self::SplittingTooLarge,
             ParameterError::Cutoff => Self::Cutoff,
             ParameterError::CutoffTooLarge => Self::CutoffTooLarge,
+            // Callers in C have no such parameter.
+            ParameterError::MeshRefresh | ParameterError::MeshRefreshTooLarge => Self::Memory,
             ParameterError::Influence => Self::InfluenceOfMethod,
             ParameterError::Gradient => Self::GradientOfMethod,
             ParameterError::Fields => Self::Fields,
@@ -201,7 +203,8 @@ impl From<InitError> for MeniscusStatus {
             InitError::TooManyParticles { .. } => Self::TooManyParticles,
             InitError::Id { .. } => Self::Id,
             InitError::Strength { .. } => Self::Strength,
-            InitError::Memory => Self::Memory,
+            // The latter two do not happen: nothing is held.
+            InitError::Memory | InitError::NoRoomToHold | InitError::HeldForce { .. } => Self::Memory,
         }
     }
 }

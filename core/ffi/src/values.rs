@@ -195,6 +195,8 @@ impl TryFrom<&MeniscusParameters> for Parameters {
             },
             splitting: parameters.splitting,
             cutoff: parameters.cutoff,
+            // Not for callers in C yet.
+            mesh_refresh: 0.0,
             grid: usize::try_from(parameters.grid).map_err(|_| MeniscusStatus::Grid)?,
             assignment: match parameters.assignment {
                 2 => Assignment::CloudInCell,

@@ -156,6 +156,7 @@ impl Run {
             influence: &mut self.influence,
             gradient: &mut self.gradient,
             near: &mut self.near,
+            ..Memory::default()
         }
     }
 

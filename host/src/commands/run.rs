@@ -80,6 +80,9 @@ fn announce(simulation: &Simulation, directory: &Path) {
         system.particles, system.side, system.capillary_strength, system.capillary_length, configuration.seed
     ));
     say(&configuration.scheme_line());
+    if let Some(line) = configuration.mesh_refresh_line() {
+        say(&line);
+    }
     let (strengths, count) = (&configuration.strengths, system.particles);
     if !all_one(strengths.repeated()) {
         let whose = match strengths {
@@ -108,6 +111,19 @@ fn conclude(outcome: &Outcome, density: f64, output: &mut impl Write) -> std::io
              --set start.density={density:?}",
             file("config.toml"),
             file("final.state")
+        ));
+    }
+    if let Some(reuse) = outcome.mesh_reuse {
+        let error = reuse.error().map_or("nothing to compare".to_owned(), |error| {
+            format!(
+                "rms error of a force as old as it got {error:.1e}, relative to the rms force of the mesh"
+            )
+        });
+        say(&format!(
+            "force.mesh_refresh: {} transforms in {} steps, {:.1} % saved; {error}",
+            reuse.transforms,
+            reuse.steps,
+            100.0 * reuse.saved()
         ));
     }
     writeln!(

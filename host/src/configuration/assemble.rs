@@ -31,6 +31,7 @@ pub(super) fn assemble(mut entries: Entries) -> Result<Configuration, Configurat
         system,
         strengths: strengths(&entries),
         force,
+        mesh_refresh: entries.real("force.mesh_refresh").unwrap_or_default(),
         mesh,
         fields: fields(&entries, system.side),
         motion: motion(&entries),

@@ -4,7 +4,8 @@ use core::f64::consts::PI;
 
 use meniscus_core::fields::LARGEST_FIELD_FORCE;
 use meniscus_core::parameters::{
-    LARGEST_CAPILLARY_STRENGTH, LARGEST_SPLITTING_OF_SPACING, ParameterError, SPACING_RANGE,
+    LARGEST_CAPILLARY_STRENGTH, LARGEST_SPLITTING_OF_SPACING, MESH_REFRESH_RANGE, ParameterError,
+    SPACING_RANGE,
 };
 
 use crate::accuracy::rounded_down;
@@ -116,6 +117,22 @@ pub(super) fn check_parameters(
             "force.cutoff",
             plain(parameters.cutoff),
             format!("a cut-off below half the box, {} R0", rounded(system.side / 2.0)),
+        ),
+        ParameterError::MeshRefresh => refusal(
+            entries,
+            "force.mesh_refresh",
+            plain(parameters.mesh_refresh),
+            format!(
+                "0, or a number from {} to {}, in R0",
+                plain(MESH_REFRESH_RANGE.0),
+                plain(MESH_REFRESH_RANGE.1)
+            ),
+        ),
+        ParameterError::MeshRefreshTooLarge => refusal(
+            entries,
+            "force.mesh_refresh",
+            plain(parameters.mesh_refresh),
+            format!("a distance below a quarter of the box, {} R0", rounded(system.side / 4.0)),
         ),
         ParameterError::Influence => of_key("mesh.influence", format!("{:?}", parameters.influence)),
         ParameterError::Gradient => of_key("mesh.gradient", format!("{:?}", parameters.gradient)),

@@ -15,7 +15,8 @@ use std::fmt;
 use meniscus_core::fields::LARGEST_FIELD_FORCE;
 use meniscus_core::parameters::{
     DISPLACEMENT_RANGE, GRID_RANGE, LARGEST_CAPILLARY_STRENGTH, LARGEST_PARTICLE_COUNT, LARGEST_SEED,
-    LARGEST_STRENGTH, SMALLEST_CAPILLARY_LENGTH, SMALLEST_CUTOFF, SPLITTING_RANGE, STEP_RANGE,
+    LARGEST_STRENGTH, MESH_REFRESH_RANGE, SMALLEST_CAPILLARY_LENGTH, SMALLEST_CUTOFF, SPLITTING_RANGE,
+    STEP_RANGE,
 };
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::LARGEST_SIDE;
@@ -306,6 +307,13 @@ pub const KEYS: &[Key] = &[
         unit: "R0",
         default: "chosen for the accuracy",
         help: "Cut-off of the near part of p3m, below half the box",
+    },
+    Key {
+        name: "force.mesh_refresh",
+        kind: Kind::Real { least: 0.0, closed: true, most: MESH_REFRESH_RANGE.1, infinite: false },
+        unit: "R0",
+        default: "0",
+        help: "How far a disc moves before the force of the mesh is computed anew; 0 for every step",
     },
     Key {
         name: "mesh.grid",

@@ -76,6 +76,8 @@ pub struct Configuration {
     pub strengths: Strengths,
     /// How the capillary force is summed.
     pub force: Force,
+    /// How far a disc moves before the force of the mesh is computed anew, R0; 0 for every step.
+    pub mesh_refresh: f64,
     /// The mesh.
     pub mesh: Mesh,
     /// External fields.
@@ -175,6 +177,7 @@ impl Configuration {
             method: self.force.method(),
             splitting,
             cutoff,
+            mesh_refresh: self.mesh_refresh,
             grid: self.mesh.grid,
             assignment: self.mesh.assignment,
             influence: self.mesh.influence,
@@ -203,6 +206,12 @@ impl Configuration {
         let system = self.force_system();
         let Mesh { grid, assignment, .. } = self.mesh;
         Some(accuracy::estimate(&system, &Scheme { grid, assignment, splitting, cutoff }).relative())
+    }
+
+    /// What a run that holds mesh forces over several steps should be told; None if it holds none.
+    #[must_use]
+    pub fn mesh_refresh_line(&self) -> Option<String> {
+        scheme::mesh_refresh_line(self)
     }
 
     /// How the capillary force is summed, in one line.

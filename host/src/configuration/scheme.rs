@@ -146,6 +146,22 @@ pub(super) fn line(configuration: &Configuration) -> String {
     )
 }
 
+/// What a run that holds mesh forces should be told; none if it holds none.
+pub(super) fn mesh_refresh_line(configuration: &Configuration) -> Option<String> {
+    let distance = configuration.mesh_refresh;
+    let consequence = match configuration.force {
+        Force::P3m { .. } => "force.accuracy no longer holds",
+        Force::ParticleMesh => "the force is less accurate than its scheme",
+    };
+    (distance > 0.0).then(|| {
+        format!(
+            "force.mesh_refresh {0}: the force of the mesh is held until a disc has moved {0} R0, and {consequence}; \
+             the error of what is held is measured and told at the end",
+            plain(distance)
+        )
+    })
+}
+
 /// A number to three digits.
 fn rounded(value: f64) -> String {
     format!("{value:.2e}").parse().map_or_else(|_| plain(value), plain)

@@ -72,6 +72,7 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
         "version" => configuration.version.to_string(),
         "seed" => configuration.seed.to_string(),
         "force.method" => quoted(method_word(force.method())),
+        "force.mesh_refresh" => real(configuration.mesh_refresh),
         "mesh.grid" => mesh.grid.to_string(),
         "mesh.assignment" => quoted(word(&ASSIGNMENTS, &mesh.assignment)),
         "mesh.influence" => quoted(word(&INFLUENCES, &mesh.influence)),

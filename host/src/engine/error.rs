@@ -34,6 +34,11 @@ fn init_message(error: InitError) -> String {
              {LARGEST_CAPILLARY_STRENGTH} kBT"
         ),
         InitError::GridMismatch | InitError::Memory => "the memory does not fit the mesh".into(),
+        InitError::NoRoomToHold => "there is no room to hold the forces of the mesh".into(),
+        InitError::HeldForce { id } => format!(
+            "the held forces do not belong to these discs (that of disc {id} is missing, too many or too large); \
+             start from the state without them"
+        ),
         InitError::NoParticles => "there is no disc; at least 1 is needed".into(),
         InitError::TooManyParticles { capacity } => format!("too many discs; at most {capacity} fit"),
         InitError::Id { id } => {

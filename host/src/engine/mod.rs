@@ -16,9 +16,11 @@
 
 mod chosen;
 mod error;
+mod reuse;
 
 use chosen::ChosenStages;
 pub use error::EngineError;
+pub use reuse::MeshReuse;
 
 use meniscus_core::digest::State;
 use meniscus_core::dynamics::{Clock, Disc, Dynamics, InitError, Memory, Step};
@@ -27,6 +29,7 @@ use meniscus_core::mesh::LINES;
 use meniscus_core::near_part::{Segment, table_length};
 use meniscus_core::pair_force::near_cutoff;
 use meniscus_core::parameters::{LARGEST_PARTICLE_COUNT, Parameters};
+use meniscus_core::refresh::{HeldForce, HeldForces};
 use meniscus_core::torus::{Fraction, Position};
 use meniscus_core::transform::Complex32;
 use meniscus_core::units::force_from_units;
@@ -87,6 +90,12 @@ pub struct Engine {
     displacement_x: Vec<i32>,
     displacement_y: Vec<i32>,
     strengths: Vec<i32>,
+    held_x: Vec<i64>,
+    held_y: Vec<i64>,
+    fresh_x: Vec<i64>,
+    fresh_y: Vec<i64>,
+    reference_x: Vec<Fraction>,
+    reference_y: Vec<Fraction>,
     next: Vec<u32>,
     nodes: Vec<u32>,
     field: Vec<Complex32>,
@@ -94,6 +103,7 @@ pub struct Engine {
     influence: Vec<f32>,
     gradient: Vec<f32>,
     near: Vec<Segment>,
+    reuse: MeshReuse,
 }
 
 impl Engine {
@@ -136,6 +146,7 @@ impl Engine {
         }
         let (count, grid) = (discs.len(), parameters.grid);
         let stages = ChosenStages::new(machinery, parameters, count);
+        let held = if parameters.mesh_refresh > 0.0 { count } else { 0 };
         let zero = Complex32::new(0.0, 0.0);
         let mesh_of_core = if machinery.kind == Kind::Core { grid } else { 0 };
         let mut engine = Self {
@@ -153,6 +164,12 @@ impl Engine {
             displacement_x: vec![0; count],
             displacement_y: vec![0; count],
             strengths: vec![0; count],
+            held_x: vec![0; held],
+            held_y: vec![0; held],
+            fresh_x: vec![0; held],
+            fresh_y: vec![0; held],
+            reference_x: vec![Fraction::ZERO; held],
+            reference_y: vec![Fraction::ZERO; held],
             next: vec![0; count],
             nodes: vec![0; grid * grid],
             field: vec![zero; mesh_of_core * mesh_of_core],
@@ -160,6 +177,7 @@ impl Engine {
             influence: vec![0.0; influence_length(grid)],
             gradient: vec![0.0; grid],
             near: vec![[0.0; 4]; table_length(near_cutoff(parameters))],
+            reuse: MeshReuse::default(),
         };
         engine.work(|dynamics, _, memory| {
             *dynamics = Dynamics::new(parameters, clock, discs, memory).map_err(EngineError::Init)?;
@@ -168,14 +186,31 @@ impl Engine {
         Ok(engine)
     }
 
+    /// Goes on with the mesh forces that were held in the state the run starts from, in the order of ids. A run that
+    /// holds none ignores them.
+    ///
+    /// # Errors
+    /// [`EngineError::Init`]; the run then computes them anew.
+    pub fn hold(&mut self, held: &[HeldForce]) -> Result<(), EngineError> {
+        self.work(|dynamics, _, memory| dynamics.hold(held.iter().copied(), memory))
+            .map_err(EngineError::Init)
+    }
+
     /// Does one step and tells what happened.
     ///
     /// # Errors
     /// [`EngineError::Step`]; the state is then as it was.
     pub fn step(&mut self) -> Result<Step, EngineError> {
-        let clock = self.clock();
-        self.work(|dynamics, stages, memory| dynamics.step(stages, memory))
-            .map_err(|error| EngineError::Step(error, clock))
+        let (clock, was_held) = (self.clock(), self.dynamics.is_held());
+        let step = self
+            .work(|dynamics, stages, memory| dynamics.step(stages, memory))
+            .map_err(|error| EngineError::Step(error, clock))?;
+        self.reuse.count(&step);
+        if was_held && step.refreshed {
+            self.reuse.compare(&self.held_x, &self.fresh_x);
+            self.reuse.compare(&self.held_y, &self.fresh_y);
+        }
+        Ok(step)
     }
 
     /// How long the next step will be (unit 2⁻⁴⁰ R0²/D, 0 if none is possible) and the largest force that decides it
@@ -227,7 +262,30 @@ impl Engine {
     /// The state as its canonical bytes see it; gives the digest.
     #[must_use]
     pub fn state(&self) -> State<'_> {
-        self.dynamics.state(&self.slots, (&self.x, &self.y), &self.strengths)
+        self.dynamics.state(&self.slots, (&self.x, &self.y), &self.strengths, self.held_forces())
+    }
+
+    /// The mesh forces that are held, in the order of ids, as [`Engine::hold`] takes them; None if none are.
+    #[must_use]
+    pub fn held(&self) -> Option<Vec<HeldForce>> {
+        let held = self.held_forces();
+        let all = || self.slots.iter().filter_map(|&slot| held.at(slot as usize)).collect();
+        self.dynamics.is_held().then(all)
+    }
+
+    /// What holding mesh forces has saved and how far it was off; None for a run that holds none.
+    #[must_use]
+    pub fn mesh_reuse(&self) -> Option<MeshReuse> {
+        self.dynamics.refresh().holds().then_some(self.reuse)
+    }
+
+    fn held_forces(&self) -> HeldForces<'_> {
+        HeldForces {
+            reference_x: &self.reference_x,
+            reference_y: &self.reference_y,
+            force_x: &self.held_x,
+            force_y: &self.held_y,
+        }
     }
 
     /// The positions in the order of ids.
@@ -276,6 +334,12 @@ impl Engine {
             displacement_x: &mut self.displacement_x,
             displacement_y: &mut self.displacement_y,
             strengths: &mut self.strengths,
+            held_x: &mut self.held_x,
+            held_y: &mut self.held_y,
+            fresh_x: &mut self.fresh_x,
+            fresh_y: &mut self.fresh_y,
+            reference_x: &mut self.reference_x,
+            reference_y: &mut self.reference_y,
             next: &mut self.next,
             nodes: &mut self.nodes,
             field: &mut self.field,

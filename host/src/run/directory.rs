@@ -113,7 +113,8 @@ impl Directory {
         let strengths = simulation.engine.strengths();
         csv::write(&self.path.join("final.csv"), &self.torus, &positions, &strengths)?;
         let (step, time) = (outcome.clock.step, outcome.clock.time);
-        let state = State { step, time, positions, strengths: Some(strengths) };
+        let state =
+            State { step, time, positions, strengths: Some(strengths), held: simulation.engine.held() };
         state.write(&self.path.join("final.state"))?;
         let summary = serde_json::json!({
             "program": concat!("meniscus ", env!("CARGO_PKG_VERSION")),
@@ -133,7 +134,7 @@ impl Directory {
             "time_over_jeans": simulation.time_over_jeans(),
             "jeans_time": simulation.configuration.jeans_time(),
             "time_unit_seconds": simulation.configuration.seconds_per_time_unit(),
-            "force": force(&simulation.configuration),
+            "force": force(simulation),
             "length": outcome.digest.length,
             "digest": outcome.digest.to_string(),
         });
@@ -143,7 +144,23 @@ impl Directory {
 }
 
 /// How the capillary force is summed.
-fn force(configuration: &Configuration) -> serde_json::Value {
+fn force(simulation: &Simulation) -> serde_json::Value {
+    let mut force = scheme(&simulation.configuration);
+    if let (Some(reuse), Some(force)) = (simulation.engine.mesh_reuse(), force.as_object_mut()) {
+        let reuse = serde_json::json!({
+            "distance": simulation.configuration.mesh_refresh,
+            "steps": reuse.steps,
+            "transforms": reuse.transforms,
+            "saved": reuse.saved(),
+            "measured_error": reuse.error(),
+        });
+        force.insert("mesh_refresh".to_owned(), reuse);
+    }
+    force
+}
+
+/// Method and scheme.
+fn scheme(configuration: &Configuration) -> serde_json::Value {
     // The words are those of the configuration.
     let Configuration { force, mesh, .. } = configuration;
     let (assignment, method) = (mesh.assignment_word(), force.method_word());

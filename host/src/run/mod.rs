@@ -19,7 +19,7 @@ mod schedule;
 pub use schedule::Schedule;
 
 use crate::configuration::Output;
-use crate::engine::EngineError;
+use crate::engine::{EngineError, MeshReuse};
 use crate::files::FileError;
 use crate::files::extended_xyz::Frame;
 use crate::golden::Golden;
@@ -83,6 +83,8 @@ pub struct Outcome {
     pub clock: Clock,
     /// Digest of the last state.
     pub digest: Digest,
+    /// What holding mesh forces has saved; None if none were to be held.
+    pub mesh_reuse: Option<MeshReuse>,
     /// The directory with everything in it.
     pub directory: PathBuf,
 }
@@ -230,6 +232,7 @@ impl Run {
             stop,
             clock: engine.clock(),
             digest: engine.state().digest(),
+            mesh_reuse: engine.mesh_reuse(),
             directory: self.directory.path().to_owned(),
         };
         self.directory.finish(&self.simulation, &outcome, failed)?;

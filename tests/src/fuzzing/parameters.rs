@@ -7,9 +7,10 @@ use meniscus_core::optimal::OptimalInfluence;
 use meniscus_core::pair_force::PairForce;
 use meniscus_core::parameters::{
     Assignment, DISPLACEMENT_RANGE, GRID_RANGE, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH,
-    LARGEST_SEED, LARGEST_SPLITTING_OF_SPACING, Method, Noise, Parameters, SMALLEST_CAPILLARY_LENGTH,
-    SMALLEST_CUTOFF, SPACING_RANGE, SPLITTING_RANGE, STEP_RANGE,
+    LARGEST_SEED, LARGEST_SPLITTING_OF_SPACING, MESH_REFRESH_RANGE, Method, Noise, Parameters,
+    SMALLEST_CAPILLARY_LENGTH, SMALLEST_CUTOFF, SPACING_RANGE, SPLITTING_RANGE, STEP_RANGE,
 };
+use meniscus_core::refresh::Refresh;
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::{Fraction, LARGEST_SIDE, SMALLEST_SIDE, Torus};
 use meniscus_core::units::TIME_UNITS;
@@ -25,6 +26,8 @@ pub fn parameters(data: &[u8]) {
     check_limits(&parameters, bytes.bits_64());
     check_field(&parameters, &mut bytes);
     check_optimal(&parameters, &mut bytes);
+    let mesh_refresh = bytes.number(MESH_REFRESH_RANGE.0, MESH_REFRESH_RANGE.1);
+    check_refresh(&Parameters { mesh_refresh, ..parameters });
     let pairs = PairForce::new(&parameters);
     if valid.is_ok() {
         assert!(pairs.reach() < 1 << 31, "{parameters:?}");
@@ -57,11 +60,33 @@ fn numbers(bytes: &mut Bytes<'_>) -> Parameters {
         method: bytes.choice([Method::ParticleMesh, Method::P3m]),
         splitting: bytes.number(SPLITTING_RANGE.0, SPLITTING_RANGE.1),
         cutoff: bytes.number(SMALLEST_CUTOFF, 0.5 * side),
+        mesh_refresh: 0.0,
         fields: Fields {
             uniform_force: [0; 2].map(|_| bytes.number(-LARGEST_FIELD_FORCE, LARGEST_FIELD_FORCE)),
             trap_stiffness: bytes.number(0.0, 2.0 * LARGEST_FIELD_FORCE / side),
             trap_center: [0; 2].map(|_| bytes.number(0.0, side)),
         },
+    }
+}
+
+/// Held forces are computed anew from the distance on, and not before.
+fn check_refresh(parameters: &Parameters) {
+    let valid = parameters.validate();
+    assert_eq!(valid.is_ok(), in_range(parameters), "{valid:?} of {parameters:?}");
+    if valid.is_err() {
+        return;
+    }
+    let refresh = Refresh::new(parameters.mesh_refresh, parameters.side);
+    assert_eq!(refresh.holds(), parameters.mesh_refresh > 0.0);
+    let units = libm::ceil(parameters.mesh_refresh / parameters.side * 4_294_967_296.0) as u32;
+    assert!(units <= 1 << 30, "{parameters:?}");
+    let (origin, at) = ([Fraction::ZERO], |bits: u32| [Fraction::from_bits(bits)]);
+    for (far, near) in
+        [(units, units.wrapping_sub(1)), (units.wrapping_neg(), units.wrapping_neg().wrapping_add(1))]
+    {
+        assert!(refresh.is_due((&origin, &origin), (&at(far), &origin)), "{parameters:?}");
+        let is_due = refresh.is_due((&origin, &origin), (&origin, &at(near)));
+        assert_eq!(is_due, !refresh.holds(), "{parameters:?}");
     }
 }
 
@@ -117,6 +142,13 @@ fn check_optimal(parameters: &Parameters, bytes: &mut Bytes<'_>) {
     assert!(optimal.at(1, 0) >= 0.0, "{optimal:?}");
 }
 
+/// As its documentation says.
+fn refresh_in_range(parameters: &Parameters) -> bool {
+    let distance = parameters.mesh_refresh;
+    let (least, most) = MESH_REFRESH_RANGE;
+    distance == 0.0 || (least..=most).contains(&distance) && distance < 0.25 * parameters.side
+}
+
 /// The ranges as their constants give them.
 fn in_range(parameters: &Parameters) -> bool {
     let spacing = parameters.side / parameters.grid as f64;
@@ -131,6 +163,7 @@ fn in_range(parameters: &Parameters) -> bool {
         && (STEP_RANGE.0..=STEP_RANGE.1).contains(&parameters.max_step)
         && (DISPLACEMENT_RANGE.0..=DISPLACEMENT_RANGE.1).contains(&parameters.max_displacement)
         && parameters.seed <= LARGEST_SEED
+        && refresh_in_range(parameters)
         && method_in_range(parameters)
         && fields_in_range(parameters)
 }

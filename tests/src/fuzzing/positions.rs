@@ -14,7 +14,7 @@ const SIDES: [f64; 2] = [8.0, 33.3];
 pub fn positions(data: &[u8]) {
     if let Ok(state) = State::from_bytes(data) {
         assert_eq!(state.to_bytes(), data);
-        check_texts(&State { time: state.time & !0xFFF, ..state });
+        check_texts(&State { time: state.time & !0xFFF, held: None, ..state });
     }
     for torus in SIDES.iter().filter_map(|&side| Torus::new(side).ok()) {
         if let Ok(state) = csv::parse(data, &torus) {
@@ -29,12 +29,12 @@ pub fn positions(data: &[u8]) {
 }
 
 /// Writes and reads `state`, whose time is a multiple of as many units as binary64 tells apart. The bytes of a
-/// state may be without discs, text may not. Strengths that are all 1 are not written.
+/// state may be without discs, text may not. Strengths that are all 1 are not written. Text holds no held forces.
 fn check_texts(state: &State) {
     let told = state.strengths.clone().filter(|strengths| !all_one(strengths));
     let told = State { strengths: told, ..state.clone() };
     assert_eq!(State::from_bytes(&state.to_bytes()).as_ref(), Ok(&told));
-    let State { step, time, positions, strengths } = state;
+    let State { step, time, positions, strengths, .. } = state;
     let strengths = strengths.as_deref().unwrap_or_default();
     if positions.is_empty() {
         return;

@@ -6,23 +6,26 @@ use meniscus_core::digest::StateDigest;
 use meniscus_core::dynamics::{Clock, Disc, InitError, Step, StepError};
 use meniscus_core::engine::Engine;
 use meniscus_core::fields::{Fields, LARGEST_FIELD_FORCE};
+use meniscus_core::near_part::LARGEST_TABLE;
 use meniscus_core::parameters::{
     Assignment, DISPLACEMENT_RANGE, Gradient, Influence, LARGEST_CAPILLARY_STRENGTH,
     LARGEST_SPLITTING_OF_SPACING, LARGEST_STRENGTH, Method, Noise, Parameters, SMALLEST_CAPILLARY_LENGTH,
     SMALLEST_CUTOFF, STEP_RANGE,
 };
+use meniscus_core::refresh::HeldForce;
 use meniscus_core::repulsion::CUTOFF;
 use meniscus_core::torus::Position;
 use meniscus_core::units::TIME_UNITS;
 
-type SmallEngine = Engine<16, 32>;
+type SmallEngine = Engine<16, 32, LARGEST_TABLE, 32>;
 
 /// Largest side of a mesh of 16 nodes, R0.
 const LARGEST_SIDE: f64 = 256.0;
 
 /// Parameters, a clock and discs; then: set-up succeeds exactly when the parameters are valid, the ids are 0 … n − 1 and
 /// no strength is too large, and of every step: its length is within its bounds, a refusal leaves the state as it was,
-/// pair forces alone sum to zero, and neither the order of the discs, nor a restart, nor looking at forces changes anything.
+/// pair forces alone sum to zero, and neither the order of the discs, nor a restart, nor looking at forces changes anything,
+/// whether the forces of the mesh are held over several steps or not.
 pub fn step(data: &[u8]) {
     let mut bytes = Bytes(data);
     let parameters = parameters(&mut bytes);
@@ -30,7 +33,9 @@ pub fn step(data: &[u8]) {
         0 => Clock { step: bytes.bits_64(), time: bytes.bits_64() },
         _ => Clock::START,
     };
-    let steps = bytes.byte() % 8;
+    let steps = bytes.byte();
+    let parameters = Parameters { mesh_refresh: mesh_refresh(steps / 8), ..parameters };
+    let steps = steps % 8;
     let discs = discs(&mut bytes);
 
     let mut engine = Box::new(SmallEngine::new());
@@ -94,6 +99,12 @@ fn parameters(bytes: &mut Bytes<'_>) -> Parameters {
     }
 }
 
+/// None for half of the choices, 0 to 31, and 2⁻²⁰ to 2¹⁰ R0 in steps of four for the others: the largest are out of range.
+fn mesh_refresh(choice: u8) -> f64 {
+    let exponent = u32::from(choice.saturating_sub(16));
+    if choice < 16 { 0.0 } else { (1_u64 << (2 * exponent)) as f64 / 1_048_576.0 }
+}
+
 fn fields(bytes: &mut Bytes<'_>, side: f64) -> Fields {
     let mut force = || bytes.number(-LARGEST_FIELD_FORCE, LARGEST_FIELD_FORCE);
     let uniform_force = [force(), force()];
@@ -146,13 +157,17 @@ fn restart(parameters: &Parameters, engine: &SmallEngine) -> Box<SmallEngine> {
     let discs = (0..engine.count() as u32).filter_map(disc);
     let mut restarted = Box::new(SmallEngine::new());
     assert_eq!(restarted.init_at(parameters, engine.clock(), discs), Ok(()));
+    let held: Vec<HeldForce> = (0..engine.count() as u32).filter_map(|id| engine.held(id)).collect();
+    if !held.is_empty() {
+        assert_eq!(restarted.hold(held), Ok(()));
+    }
     assert_eq!(digest(engine), digest(&restarted));
     restarted
 }
 
 fn check_step(parameters: &Parameters, before: &StateDigest, step: &Step) {
     const DISPLACEMENT_UNITS: f64 = 18_446_744_073_709_551_616.0;
-    let &Step { length, largest_force, clock } = step;
+    let &Step { length, largest_force, clock, .. } = step;
     assert!(length > 0 && length as f64 <= parameters.max_step * TIME_UNITS as f64, "{step:?}");
     let displacement = u128::from(length) * u128::from(largest_force);
     let most = (parameters.max_displacement * DISPLACEMENT_UNITS) as u128;
