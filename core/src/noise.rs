@@ -27,13 +27,16 @@ pub enum Purpose {
 }
 
 /// The increment of SplitMix64, 2⁶⁴ divided by the golden ratio, odd.
-const GOLDEN_GAMMA: u64 = 0x9E37_79B9_7F4A_7C15;
+pub const GOLDEN_GAMMA: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The multipliers of SplitMix64's output function.
+pub const MULTIPLIERS: [u64; 2] = [0xBF58_476D_1CE4_E5B9, 0x94D0_49BB_1331_11EB];
 
 /// The output function of SplitMix64: a bijection of 64 bits in which every input bit moves every output
 /// bit with probability near one half.
 const fn mix(bits: u64) -> u64 {
-    let bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    let bits = (bits ^ (bits >> 30)).wrapping_mul(MULTIPLIERS[0]);
+    let bits = (bits ^ (bits >> 27)).wrapping_mul(MULTIPLIERS[1]);
     bits ^ (bits >> 31)
 }
 
@@ -51,6 +54,12 @@ impl StepKey {
         // A key takes two 32-bit outputs.
         generator.advance(step.wrapping_mul(2));
         Self(generator.next_u64())
+    }
+
+    /// The key itself: the state that the SplitMix64 sequence starts from.
+    #[must_use]
+    pub const fn state(self) -> u64 {
+        self.0
     }
 
     /// 64 random bits for the particle (or draw) `id`.
@@ -102,6 +111,24 @@ impl ThermalKick {
             Noise::None => 0.0,
         };
         Self { noise, width, key }
+    }
+
+    /// Which distribution.
+    #[must_use]
+    pub const fn noise(&self) -> Noise {
+        self.noise
+    }
+
+    /// What a number uniform in (−1, 1) or a standard normal number is multiplied by, R0.
+    #[must_use]
+    pub const fn width(&self) -> f32 {
+        self.width
+    }
+
+    /// The key of the step.
+    #[must_use]
+    pub const fn key(&self) -> StepKey {
+        self.key
     }
 
     /// The displacement (x, y) of particle `id`, R0.

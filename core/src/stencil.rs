@@ -22,11 +22,22 @@ use crate::grid::Grid;
 use crate::torus::Fraction;
 
 /// One-dimensional integer weights have unit 2⁻³⁰.
-const ONE: u32 = 1 << 30;
+pub const ONE: u32 = 1 << 30;
 
 /// The position within a mesh cell has unit 2⁻²⁸ cells: exact, as a cell has at least 2²⁰ and at most 2²⁸
 /// units of position.
-const CELL: u32 = 1 << 28;
+pub const CELL: u32 = 1 << 28;
+
+/// What a product of one-dimensional binary32 weights of order P is multiplied by to have unit 2⁻²⁰: 2²⁰/((P − 1)!)².
+#[must_use]
+pub const fn scale<const P: usize>() -> f32 {
+    let (mut factorial, mut factor) = (1, 2);
+    while factor < P {
+        factorial *= factor;
+        factor += 1;
+    }
+    DISC as f32 / (factorial * factorial) as f32
+}
 
 /// The P × P nodes that share a disc's mass, with integer weights of unit 2⁻²⁰ that sum to exactly [`DISC`].
 #[derive(Clone, Copy, Debug)]
@@ -182,11 +193,11 @@ macro_rules! integer_weights {
 }
 
 macro_rules! binary32_weights {
-    ($($order:literal $factorial:literal)*) => { $(
+    ($($order:literal)*) => { $(
         impl Weights for Stencil<$order> {
             #[inline]
             fn new(x: Fraction, y: Fraction, grid: Grid) -> Self {
-                const SCALE: f32 = DISC as f32 / ($factorial * $factorial);
+                const SCALE: f32 = scale::<$order>();
                 let (x, y) = (Axis::<$order, f32>::new(x, grid), Axis::<$order, f32>::new(y, grid));
                 Self::of_products(&x, &y, |along_x, along_y| nearest_integer(along_x * along_y * SCALE))
             }
@@ -195,7 +206,7 @@ macro_rules! binary32_weights {
 }
 
 integer_weights!(2 3);
-binary32_weights!(4 6.0 5 24.0 6 120.0 7 720.0);
+binary32_weights!(4 5 6 7);
 
 /// The integer nearest to a number from 0 to 2²², ties to even.
 #[inline]

@@ -8,8 +8,11 @@
 
 #![deny(unsafe_code)]
 
+pub mod assignment;
 pub mod division;
 pub mod lanes;
 pub mod mesh;
+pub mod motion;
+mod pieces;
 pub mod stages;
 pub mod transform;

@@ -1,99 +1,141 @@
 //! The wide stages of a step, for [`meniscus_core::dynamics::Dynamics`].
+//!
+//! ```
+//! use meniscus_core::engine::Engine;
+//! use meniscus_core::parameters::Parameters;
+//! use meniscus_core::torus::Position;
+//! use meniscus_wide::stages::Wide;
+//!
+//! let parameters = Parameters::default().with_p3m();
+//! let discs = [(0, Position::from_bits(0, 0)), (1, Position::from_bits(1 << 27, 1 << 20))];
+//! let mut engines = [const { Engine::<64, 2>::new() }; 2];
+//! for engine in &mut engines {
+//!     engine.init(&parameters, discs)?;
+//! }
+//! let [core, wide] = &mut engines;
+//! core.step()?;
+//! let (dynamics, mut memory) = wide.parts();
+//! dynamics.step(&mut Wide::new(&parameters, 2, 1), &mut memory)?;
+//! assert_eq!(core.state().digest(), wide.state().digest());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+use crate::assignment::{Field, MeshAssignment};
 use crate::division::Division;
 use crate::lanes::Level;
-use meniscus_core::assignment::{self, Crowded};
+use crate::mesh::Solver;
+use crate::motion::Motion;
+use meniscus_core::assignment::Crowded;
 use meniscus_core::ermak::{Displacement, HalfBox};
 use meniscus_core::forces::{Coupling, Forces};
+use meniscus_core::grid::Grid;
 use meniscus_core::memory::Memory;
-use meniscus_core::mesh::{LINES, Tables, solve, solve_strengths};
+use meniscus_core::mesh::Tables;
 use meniscus_core::parameters::Parameters;
 use meniscus_core::stages::{Scalar, Stages};
-use meniscus_core::transform::{AnySize, Complex32};
+use meniscus_core::transform::AnySize;
 
-/// The stages and the arrays that are theirs alone.
+/// The stages of one run, and the arrays that are theirs alone: `field`, `lines` and `next` of the memory are not used.
 #[derive(Debug)]
 pub struct Wide {
-    field: Vec<Complex32>,
-    lines: Vec<Complex32>,
+    level: Level,
     division: Division,
-    scalar: Scalar<AnySize>,
+    solver: Solver,
 }
 
 impl Wide {
     /// Stages for `count` discs, in up to `threads` threads.
     #[must_use]
     pub fn new(parameters: &Parameters, count: usize, threads: usize) -> Self {
-        Self::with(parameters, count, Level::best(), Division::of(threads, parameters.grid, count))
+        Self::with(parameters, Level::best(), Division::of(threads, parameters.grid, count))
     }
 
-    /// Stages for `count` discs with the registers of a level, divided as asked for; several pieces are done in the
-    /// threads of the rayon pool in which a stage is called.
+    /// Stages with the registers of a level, divided as asked for; several pieces are done in the threads of the rayon pool
+    /// in which a stage is called.
     #[must_use]
-    pub fn with(parameters: &Parameters, _count: usize, _level: Level, division: Division) -> Self {
-        let (zero, grid) = (Complex32::new(0.0, 0.0), parameters.grid);
-        Self {
-            field: vec![zero; grid * grid],
-            lines: vec![zero; grid * LINES],
-            division,
-            scalar: Scalar(AnySize),
-        }
+    pub fn with(parameters: &Parameters, level: Level, division: Division) -> Self {
+        // What `Dynamics` was made of is valid; stages of other parameters do not fit it.
+        let grid = Grid::new(parameters.grid).unwrap_or(Grid::SMALLEST);
+        Self { level, division, solver: Solver::new(grid, level) }
     }
 
-    /// In how many threads a step is to be called.
+    /// In how many threads a step is best called.
     #[must_use]
     pub fn threads(&self) -> usize {
         self.division.threads()
+    }
+
+    /// The registers in use.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    fn motion(&self) -> Motion {
+        Motion { level: self.level, pieces: self.division.discs }
     }
 }
 
 impl Stages for Wide {
     fn fits(&self, forces: &Forces, memory: &Memory<'_>) -> bool {
         let side = forces.grid().nodes();
-        memory.nodes.len() == side * side && self.field.len() == side * side
+        memory.nodes.len() == side * side && self.solver.grid() == forces.grid()
     }
 
     fn mesh(&mut self, forces: &Forces, memory: &mut Memory<'_>) -> Result<(), Crowded> {
         let Memory { x, y, force_x, force_y, strengths, nodes, influence, gradient, .. } = memory;
-        let tables = Tables { influence, gradient };
-        let (assignment, grid) = (forces.assignment(), forces.grid());
-        let (field, lines) = (&mut self.field, &mut self.lines);
-        match forces.coupling() {
+        let Division { mesh: lines, discs: pieces } = self.division;
+        let assignment = MeshAssignment {
+            level: self.level,
+            pieces,
+            assignment: forces.assignment(),
+            grid: forces.grid(),
+        };
+        let is_signed = match forces.coupling() {
             Coupling::None => {
                 force_x.fill(0);
                 force_y.fill(0);
+                return Ok(());
             }
-            Coupling::Equal => {
-                assignment::deposit(assignment, grid, x, y, nodes)?;
-                solve(&self.scalar.0, grid, &tables, nodes, field, lines);
-                assignment::gather(assignment, grid, (x, y), field, (force_x, force_y));
-            }
-            Coupling::Unequal => {
-                assignment::deposit_strengths(assignment, grid, (x, y), strengths, nodes)?;
-                solve_strengths(&self.scalar.0, grid, &tables, nodes, field, lines);
-                assignment::gather_strengths(assignment, grid, (x, y), strengths, field, (force_x, force_y));
-            }
+            Coupling::Equal => false,
+            Coupling::Unequal => true,
+        };
+        if is_signed {
+            assignment.deposit_strengths((x, y), strengths, nodes)?;
+        } else {
+            assignment.deposit((x, y), nodes)?;
+        }
+        self.solver.solve(&Tables { influence, gradient }, nodes, is_signed, lines);
+        let field = Field { nodes: self.solver.field(), pitch: self.solver.pitch() };
+        if is_signed {
+            assignment.gather_strengths((x, y), strengths, field, (force_x, force_y));
+        } else {
+            assignment.gather((x, y), field, (force_x, force_y));
         }
         Ok(())
     }
 
     fn add_pairs(&mut self, forces: &Forces, memory: &mut Memory<'_>) {
-        self.scalar.add_pairs(forces, memory);
+        Scalar(AnySize).add_pairs(forces, memory);
     }
 
     fn add_fields(&mut self, forces: &Forces, memory: &mut Memory<'_>) {
-        self.scalar.add_fields(forces, memory);
+        Scalar(AnySize).add_fields(forces, memory);
     }
 
     fn largest_force(&mut self, memory: &mut Memory<'_>) -> u64 {
-        self.scalar.largest_force(memory)
+        self.motion().largest_force(memory.force_x, memory.force_y)
     }
 
     fn displacements(&mut self, displacement: &Displacement, memory: &mut Memory<'_>) -> Result<(), HalfBox> {
-        self.scalar.displacements(displacement, memory)
+        let Memory { ids, force_x, force_y, displacement_x, displacement_y, .. } = memory;
+        let forces = (&**force_x, &**force_y);
+        self.motion().displacements(displacement, ids, forces, (displacement_x, displacement_y))
     }
 
     fn displace(&mut self, memory: &mut Memory<'_>) {
-        self.scalar.displace(memory);
+        let motion = self.motion();
+        motion.displace(memory.x, memory.crossings_x, memory.displacement_x);
+        motion.displace(memory.y, memory.crossings_y, memory.displacement_y);
     }
 }

@@ -78,7 +78,7 @@ fn every_state_is_the_cores() {
         for level in Level::available() {
             for pieces in PIECES {
                 let division = Division { mesh: pieces, discs: pieces };
-                let mut wide = Wide::with(&parameters, discs.len(), level, division);
+                let mut wide = Wide::with(&parameters, level, division);
                 let mut engine = Box::new(SmallEngine::new());
                 engine.init(&parameters, discs.iter().copied()).unwrap();
                 for (step, digest) in digests.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! AVX2: eight numbers.
 
-use super::{Kernel, Lanes, Sixteen};
+use super::{Kernel, LARGEST_WIDTH, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Eight numbers in a register of 256 bits.
@@ -19,6 +19,12 @@ impl Avx2 {
 }
 
 const WIDTH: usize = 8;
+
+/// 1.5·2⁵²: added to a number of binary64 of modulus up to 2⁵¹, it leaves the nearest integer in the last bits of the sum.
+const INTEGERS: f64 = 6_755_399_441_055_744.0;
+
+/// 2⁵¹
+const LARGEST_ROUNDED: f32 = 2_251_799_813_685_248.0;
 
 /// Up to the width of elements, zeros after them.
 #[cold]
@@ -92,6 +98,10 @@ impl Lanes for Avx2 {
             [_mm256_sub_epi64(a[0], b[0]), _mm256_sub_epi64(a[1], b[1])];
         xor_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
             [_mm256_xor_si256(a[0], b[0]), _mm256_xor_si256(a[1], b[1])];
+        widen_u32(a: __m256i) -> [__m256i; 2] = [
+            _mm256_cvtepu32_epi64(_mm256_castsi256_si128(a)),
+            _mm256_cvtepu32_epi64(_mm256_extracti128_si256::<1>(a)),
+        ];
         widen_i32(a: __m256i) -> [__m256i; 2] = [
             _mm256_cvtepi32_epi64(_mm256_castsi256_si128(a)),
             _mm256_cvtepi32_epi64(_mm256_extracti128_si256::<1>(a)),
@@ -107,31 +117,120 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn mul_u64(self, a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] {
-        let multiply = |a, b| {
-            // SAFETY: `self` says that AVX2 is there.
+    fn high_product(self, a: __m256i, b: __m256i) -> __m256i {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            let even = _mm256_mul_epu32(a, b);
+            let odd = _mm256_mul_epu32(_mm256_srli_epi64::<32>(a), _mm256_srli_epi64::<32>(b));
+            _mm256_blend_epi32::<0b1010_1010>(_mm256_srli_epi64::<32>(even), odd)
+        }
+    }
+
+    #[inline(always)]
+    fn gather_runs<const K: usize>(self, table: &[f32], index: __m256i) -> [[__m256; 4]; K] {
+        let mut runs = [[self.splat(0.0); 4]; K];
+        let Some(last) = table.len().checked_sub(4 * K) else { return runs };
+        let last = last.min(u32::MAX as usize) as u32;
+        let mut begins = [0; WIDTH];
+        // SAFETY: `self` says that AVX2 is there.
+        self.store_u32(unsafe { _mm256_min_epu32(index, self.splat_u32(last)) }, &mut begins);
+        let [a, b, c, d, e, f, g, h] = begins;
+        for (k, run) in runs.iter_mut().enumerate() {
+            // SAFETY: `self` says that AVX2 is there, and from each beginning on the table has 4·K elements, of which
+            // these are four.
             unsafe {
-                let crossed = _mm256_add_epi64(
-                    _mm256_mul_epu32(_mm256_srli_epi64::<32>(a), b),
-                    _mm256_mul_epu32(a, _mm256_srli_epi64::<32>(b)),
-                );
-                _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64::<32>(crossed))
+                let first = table.as_ptr().add(4 * k);
+                let pairs = [pair(first, a, e), pair(first, b, f), pair(first, c, g), pair(first, d, h)];
+                *run = transposed(pairs);
             }
-        };
-        [multiply(a[0], b[0]), multiply(a[1], b[1])]
+        }
+        runs
+    }
+
+    #[inline(always)]
+    fn store_fours(self, columns: [__m256i; 4], to: &mut [[u32; 4]; LARGEST_WIDTH]) {
+        let [a, b, c, d] = columns;
+        // SAFETY: `self` says that AVX2 is there, and each place has room for the four numbers written to it.
+        unsafe {
+            let rows = transposed([self.of_bits(a), self.of_bits(b), self.of_bits(c), self.of_bits(d)]);
+            for (lane, row) in rows.into_iter().enumerate() {
+                _mm_storeu_ps(to[lane].as_mut_ptr().cast(), _mm256_castps256_ps128(row));
+                _mm_storeu_ps(to[lane + 4].as_mut_ptr().cast(), _mm256_extractf128_ps::<1>(row));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn store_eights(self, columns: [__m256i; 8], to: &mut [[u32; 8]; LARGEST_WIDTH]) {
+        let [a, b, c, d, e, f, g, h] = columns;
+        // SAFETY: `self` says that AVX2 is there, and each place has room for the eight numbers written to it.
+        unsafe {
+            let lower = transposed([self.of_bits(a), self.of_bits(b), self.of_bits(c), self.of_bits(d)]);
+            let upper = transposed([self.of_bits(e), self.of_bits(f), self.of_bits(g), self.of_bits(h)]);
+            for (lane, (lower, upper)) in lower.into_iter().zip(upper).enumerate() {
+                let (first, second) = (
+                    _mm256_insertf128_ps::<1>(lower, _mm256_castps256_ps128(upper)),
+                    _mm256_permute2f128_ps::<0x31>(lower, upper),
+                );
+                _mm256_storeu_ps(to[lane].as_mut_ptr().cast(), first);
+                _mm256_storeu_ps(to[lane + 4].as_mut_ptr().cast(), second);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn of_i64(self, a: [__m256i; 2]) -> __m256 {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            let offset = _mm256_set1_epi64x(1 << 51);
+            let above = _mm256_or_si256(_mm256_add_epi64(a[0], offset), _mm256_add_epi64(a[1], offset));
+            if _mm256_testz_si256(above, _mm256_set1_epi64x(!0 << 52)) == 0 {
+                let mut converted = [0.0; WIDTH];
+                for (converted, value) in converted.iter_mut().zip(self.array_u64(a)) {
+                    *converted = value as i64 as f32;
+                }
+                return self.load_f32(&converted);
+            }
+            _mm256_set_m128(nearest_number(a[1]), nearest_number(a[0]))
+        }
+    }
+
+    #[inline(always)]
+    fn round_i64(self, a: __m256) -> [__m256i; 2] {
+        let fits = self.less(self.abs(a), self.splat(LARGEST_ROUNDED));
+        if self.bits(fits) != 255 {
+            let mut rounded = [0; WIDTH];
+            for (rounded, value) in rounded.iter_mut().zip(self.array_f32(a)) {
+                *rounded = meniscus_core::units::round_half_even(value) as u64;
+            }
+            return self.load_u64(&rounded);
+        }
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe {
+            [nearest_integer(_mm256_castps256_ps128(a)), nearest_integer(_mm256_extractf128_ps::<1>(a))]
+        }
+    }
+
+    #[inline(always)]
+    fn mul_u64(self, a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] {
+        // SAFETY: `self` says that AVX2 is there.
+        unsafe { [multiply(a[0], b[0]), multiply(a[1], b[1])] }
     }
 
     #[inline(always)]
     fn shr_u64(self, a: [__m256i; 2], bits: u32) -> [__m256i; 2] {
         // SAFETY: `self` says that AVX2 is there.
-        a.map(|a| unsafe { _mm256_srl_epi64(a, _mm_cvtsi32_si128(bits as i32)) })
+        unsafe {
+            let bits = _mm_cvtsi32_si128(bits as i32);
+            [_mm256_srl_epi64(a[0], bits), _mm256_srl_epi64(a[1], bits)]
+        }
     }
 
     #[inline(always)]
     fn low(self, a: [__m256i; 2]) -> __m256i {
         // SAFETY: `self` says that AVX2 is there.
         unsafe {
-            let [first, second] = a.map(|a| _mm256_castsi256_ps(a));
+            let (first, second) = (_mm256_castsi256_ps(a[0]), _mm256_castsi256_ps(a[1]));
             let mixed = _mm256_castps_si256(_mm256_shuffle_ps::<0b10_00_10_00>(first, second));
             _mm256_permute4x64_epi64::<0b11_01_10_00>(mixed)
         }
@@ -141,7 +240,7 @@ impl Lanes for Avx2 {
     fn high(self, a: [__m256i; 2]) -> __m256i {
         // SAFETY: `self` says that AVX2 is there.
         unsafe {
-            let [first, second] = a.map(|a| _mm256_castsi256_ps(a));
+            let (first, second) = (_mm256_castsi256_ps(a[0]), _mm256_castsi256_ps(a[1]));
             let mixed = _mm256_castps_si256(_mm256_shuffle_ps::<0b11_01_11_01>(first, second));
             _mm256_permute4x64_epi64::<0b11_01_10_00>(mixed)
         }
@@ -349,5 +448,78 @@ impl Avx2 {
     #[inline(always)]
     fn inside(self, length: usize, index: __m256i) -> __m256i {
         self.less_u32(index, self.splat_u32(length.min(i32::MAX as usize) as u32))
+    }
+}
+
+/// Four elements from one place, then four from another, counted from the first.
+///
+/// # Safety
+/// The processor must have AVX2, and there must be four elements at both places.
+#[inline(always)]
+unsafe fn pair(first: *const f32, low: u32, high: u32) -> __m256 {
+    // SAFETY: the caller's.
+    unsafe { _mm256_loadu2_m128(first.add(high as usize), first.add(low as usize)) }
+}
+
+/// Rows of four as columns, in each half.
+///
+/// # Safety
+/// The processor must have AVX2.
+#[inline(always)]
+unsafe fn transposed([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
+    // SAFETY: the caller's.
+    unsafe {
+        let (low, high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (low_next, high_next) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0b01_00_01_00>(low, low_next),
+            _mm256_shuffle_ps::<0b11_10_11_10>(low, low_next),
+            _mm256_shuffle_ps::<0b01_00_01_00>(high, high_next),
+            _mm256_shuffle_ps::<0b11_10_11_10>(high, high_next),
+        ]
+    }
+}
+
+/// The lower 64 bits of the products of two integers of 64 bits.
+///
+/// # Safety
+/// The processor must have AVX2.
+#[inline(always)]
+unsafe fn multiply(a: __m256i, b: __m256i) -> __m256i {
+    // SAFETY: the caller's.
+    unsafe {
+        let crossed = _mm256_add_epi64(
+            _mm256_mul_epu32(_mm256_srli_epi64::<32>(a), b),
+            _mm256_mul_epu32(a, _mm256_srli_epi64::<32>(b)),
+        );
+        _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64::<32>(crossed))
+    }
+}
+
+/// The numbers of binary32 nearest to integers of modulus below 2⁵¹: exact in binary64, so that they are rounded once.
+///
+/// # Safety
+/// The processor must have AVX2.
+#[inline(always)]
+unsafe fn nearest_number(a: __m256i) -> __m128 {
+    // SAFETY: the caller's.
+    unsafe {
+        let integers = _mm256_set1_pd(INTEGERS);
+        let sum = _mm256_castsi256_pd(_mm256_add_epi64(a, _mm256_castpd_si256(integers)));
+        _mm256_cvtpd_ps(_mm256_sub_pd(sum, integers))
+    }
+}
+
+/// The integers nearest to numbers of modulus below 2⁵¹, ties to even.
+///
+/// # Safety
+/// The processor must have AVX2.
+#[inline(always)]
+unsafe fn nearest_integer(a: __m128) -> __m256i {
+    // SAFETY: the caller's.
+    unsafe {
+        let integers = _mm256_set1_pd(INTEGERS);
+        let sum = _mm256_add_pd(_mm256_cvtps_pd(a), integers);
+        _mm256_sub_epi64(_mm256_castpd_si256(sum), _mm256_castpd_si256(integers))
     }
 }

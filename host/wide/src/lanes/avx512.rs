@@ -107,10 +107,18 @@ impl Lanes for Avx512 {
             _mm512_srl_epi64(a[0], _mm_cvtsi32_si128(bits as i32)),
             _mm512_srl_epi64(a[1], _mm_cvtsi32_si128(bits as i32)),
         ];
+        widen_u32(a: __m512i) -> [__m512i; 2] = [
+            _mm512_cvtepu32_epi64(_mm512_castsi512_si256(a)),
+            _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64::<1>(a)),
+        ];
         widen_i32(a: __m512i) -> [__m512i; 2] = [
             _mm512_cvtepi32_epi64(_mm512_castsi512_si256(a)),
             _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64::<1>(a)),
         ];
+        of_i64(a: [__m512i; 2]) -> __m512 = _mm512_insertf32x8::<1>(
+            _mm512_castps256_ps512(_mm512_cvtepi64_ps(a[0])),
+            _mm512_cvtepi64_ps(a[1]),
+        );
         round_i64(a: __m512) -> [__m512i; 2] = [
             _mm512_cvtps_epi64(_mm512_castps512_ps256(a)),
             _mm512_cvtps_epi64(_mm512_extractf32x8_ps::<1>(a)),
@@ -124,6 +132,78 @@ impl Lanes for Avx512 {
             _mm512_cvtepi64_epi32(_mm512_srli_epi64::<32>(a[1])),
         );
         sum_u64(a: [__m512i; 2]) -> u64 = _mm512_reduce_add_epi64(_mm512_add_epi64(a[0], a[1])) as u64;
+    }
+
+    #[inline(always)]
+    fn high_product(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: `self` says that AVX-512 is there.
+        unsafe {
+            let even = _mm512_mul_epu32(a, b);
+            let odd = _mm512_mul_epu32(_mm512_srli_epi64::<32>(a), _mm512_srli_epi64::<32>(b));
+            _mm512_mask_blend_epi32(0xAAAA, _mm512_srli_epi64::<32>(even), odd)
+        }
+    }
+
+    #[inline(always)]
+    fn gather_runs<const K: usize>(self, table: &[f32], index: __m512i) -> [[__m512; 4]; K] {
+        let mut runs = [[self.splat(0.0); 4]; K];
+        let Some(last) = table.len().checked_sub(4 * K) else { return runs };
+        let last = last.min(u32::MAX as usize) as u32;
+        let mut begins = [0; WIDTH];
+        // SAFETY: `self` says that AVX-512 is there.
+        self.store_u32(unsafe { _mm512_min_epu32(index, self.splat_u32(last)) }, &mut begins);
+        let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = begins;
+        for (run, elements) in runs.iter_mut().enumerate() {
+            // SAFETY: `self` says that AVX-512 is there, and from each beginning on the table has 4·K elements, of which
+            // these are four.
+            unsafe {
+                let first = table.as_ptr().add(4 * run);
+                let rows = [
+                    quadruple(first, [a, e, i, m]),
+                    quadruple(first, [b, f, j, n]),
+                    quadruple(first, [c, g, k, o]),
+                    quadruple(first, [d, h, l, p]),
+                ];
+                *elements = transposed(rows);
+            }
+        }
+        runs
+    }
+
+    #[inline(always)]
+    fn store_fours(self, columns: [__m512i; 4], to: &mut [[u32; 4]; WIDTH]) {
+        let [a, b, c, d] = columns;
+        // SAFETY: `self` says that AVX-512 is there, and each place has room for the four numbers written to it.
+        unsafe {
+            let rows = transposed([self.of_bits(a), self.of_bits(b), self.of_bits(c), self.of_bits(d)]);
+            for (lane, row) in rows.into_iter().enumerate() {
+                _mm_storeu_ps(to[lane].as_mut_ptr().cast(), _mm512_castps512_ps128(row));
+                _mm_storeu_ps(to[lane + 4].as_mut_ptr().cast(), _mm512_extractf32x4_ps::<1>(row));
+                _mm_storeu_ps(to[lane + 8].as_mut_ptr().cast(), _mm512_extractf32x4_ps::<2>(row));
+                _mm_storeu_ps(to[lane + 12].as_mut_ptr().cast(), _mm512_extractf32x4_ps::<3>(row));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn store_eights(self, columns: [__m512i; 8], to: &mut [[u32; 8]; WIDTH]) {
+        let [a, b, c, d, e, f, g, h] = columns;
+        // SAFETY: `self` says that AVX-512 is there, and each place has room for the eight numbers written to it.
+        unsafe {
+            let lower = transposed([self.of_bits(a), self.of_bits(b), self.of_bits(c), self.of_bits(d)]);
+            let upper = transposed([self.of_bits(e), self.of_bits(f), self.of_bits(g), self.of_bits(h)]);
+            let halves = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
+            let other_halves = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+            for (lane, (lower, upper)) in lower.into_iter().zip(upper).enumerate() {
+                let (lower, upper) = (_mm512_castps_pd(lower), _mm512_castps_pd(upper));
+                let first = _mm512_castpd_ps(_mm512_permutex2var_pd(lower, halves, upper));
+                let second = _mm512_castpd_ps(_mm512_permutex2var_pd(lower, other_halves, upper));
+                _mm256_storeu_ps(to[lane].as_mut_ptr().cast(), _mm512_castps512_ps256(first));
+                _mm256_storeu_ps(to[lane + 4].as_mut_ptr().cast(), _mm512_extractf32x8_ps::<1>(first));
+                _mm256_storeu_ps(to[lane + 8].as_mut_ptr().cast(), _mm512_castps512_ps256(second));
+                _mm256_storeu_ps(to[lane + 12].as_mut_ptr().cast(), _mm512_extractf32x8_ps::<1>(second));
+            }
+        }
     }
 
     #[inline(always)]
@@ -330,5 +410,38 @@ impl Avx512 {
     #[inline(always)]
     fn inside(self, length: usize, index: __m512i) -> __mmask16 {
         self.less_u32(index, self.splat_u32(length.min(i32::MAX as usize) as u32))
+    }
+}
+
+/// Four elements from each of four places, counted from the first.
+///
+/// # Safety
+/// The processor must have AVX-512, and there must be four elements at all places.
+#[inline(always)]
+unsafe fn quadruple(first: *const f32, [a, b, c, d]: [u32; 4]) -> __m512 {
+    // SAFETY: the caller's.
+    unsafe {
+        let low = _mm256_loadu2_m128(first.add(b as usize), first.add(a as usize));
+        let high = _mm256_loadu2_m128(first.add(d as usize), first.add(c as usize));
+        _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high)
+    }
+}
+
+/// Rows of four as columns, in each quarter.
+///
+/// # Safety
+/// The processor must have AVX-512.
+#[inline(always)]
+unsafe fn transposed([a, b, c, d]: [__m512; 4]) -> [__m512; 4] {
+    // SAFETY: the caller's.
+    unsafe {
+        let (low, high) = (_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+        let (low_next, high_next) = (_mm512_unpacklo_ps(c, d), _mm512_unpackhi_ps(c, d));
+        [
+            _mm512_shuffle_ps::<0b01_00_01_00>(low, low_next),
+            _mm512_shuffle_ps::<0b11_10_11_10>(low, low_next),
+            _mm512_shuffle_ps::<0b01_00_01_00>(high, high_next),
+            _mm512_shuffle_ps::<0b11_10_11_10>(high, high_next),
+        ]
     }
 }

@@ -50,7 +50,10 @@ mod views;
 
 pub use level::{Kernel, Level};
 pub use sixteen::{Rows, Sixteen, complex_of_sixteens, complex_of_sixteens_mut};
-pub use views::bits_of_fractions;
+pub use views::{
+    bits_of_fractions, bits_of_fractions_mut, bits_of_i32, bits_of_i32_mut, bits_of_i64, bits_of_i64_mut,
+    parts_of_complex,
+};
 
 /// The largest [`Lanes::WIDTH`].
 pub const LARGEST_WIDTH: usize = 16;
@@ -170,6 +173,58 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     fn gather_f32(self, table: &[f32], index: Self::U32) -> Self::F32;
     /// The elements of a table at these indices, not signed; 0 beyond its end.
     fn gather_u32(self, table: &[u32], index: Self::U32) -> Self::U32;
+
+    /// Runs of 4·`K` elements of a table that begin at these indices, not signed: `[k][i]` holds element 4k + i of each.
+    /// A run that would reach beyond the end is moved up to it; a table shorter than a run gives zeros.
+    #[inline(always)]
+    fn gather_runs<const K: usize>(self, table: &[f32], index: Self::U32) -> [[Self::F32; 4]; K] {
+        let mut runs = [[self.splat(0.0); 4]; K];
+        let Some(last) = table.len().checked_sub(4 * K) else { return runs };
+        let begins = self.array_u32(index).map(|index| last.min(index as usize));
+        for (k, run) in runs.iter_mut().enumerate() {
+            for (i, element) in run.iter_mut().enumerate() {
+                let of = |begin: usize| table.get(begin + 4 * k + i).copied().unwrap_or(0.0);
+                *element = self.load_f32(&begins.map(of));
+            }
+        }
+        runs
+    }
+
+    /// Writes four integers a lane, those of each lane side by side.
+    #[inline(always)]
+    fn store_fours(self, columns: [Self::U32; 4], to: &mut [[u32; 4]; LARGEST_WIDTH]) {
+        let columns = columns.map(|column| self.array_u32(column));
+        for (lane, four) in to.iter_mut().enumerate().take(Self::WIDTH) {
+            *four = columns.map(|column| column[lane]);
+        }
+    }
+
+    /// Writes eight integers a lane, those of each lane side by side.
+    #[inline(always)]
+    fn store_eights(self, columns: [Self::U32; 8], to: &mut [[u32; 8]; LARGEST_WIDTH]) {
+        let columns = columns.map(|column| self.array_u32(column));
+        for (lane, eight) in to.iter_mut().enumerate().take(Self::WIDTH) {
+            *eight = columns.map(|column| column[lane]);
+        }
+    }
+
+    /// The upper 32 bits of the product of two integers of 32 bits, not signed.
+    #[inline(always)]
+    fn high_product(self, a: Self::U32, b: Self::U32) -> Self::U32 {
+        self.high(self.product(a, b))
+    }
+
+    /// The same integers, not signed, with 64 bits.
+    #[inline(always)]
+    fn widen_u32(self, a: Self::U32) -> Self::U64 {
+        self.product(a, self.splat_u32(1))
+    }
+
+    /// The number nearest to an integer of 64 bits read as signed, ties to even.
+    #[inline(always)]
+    fn of_i64(self, a: Self::U64) -> Self::F32 {
+        self.load_f32(&self.array_u64(a).map(|a| a as i64 as f32))
+    }
 
     /// The number nearest to an integer not read as signed.
     #[inline(always)]

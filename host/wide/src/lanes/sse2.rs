@@ -1,6 +1,6 @@
 //! SSE2: four numbers, on every x86-64.
 
-use super::{Lanes, Sixteen};
+use super::{LARGEST_WIDTH, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Four numbers in a register of 128 bits.
@@ -19,6 +19,12 @@ impl Sse2 {
 }
 
 const WIDTH: usize = 4;
+
+/// 1.5·2⁵²: added to a number of binary64 of modulus up to 2⁵¹, it leaves the nearest integer in the last bits of the sum.
+const INTEGERS: f64 = 6_755_399_441_055_744.0;
+
+/// 2⁵¹
+const LARGEST_ROUNDED: f32 = 2_251_799_813_685_248.0;
 
 /// Up to the width of elements, zeros after them.
 #[cold]
@@ -88,6 +94,8 @@ impl Lanes for Sse2 {
             [_mm_sub_epi64(a[0], b[0]), _mm_sub_epi64(a[1], b[1])];
         xor_u64(a: [__m128i; 2], b: [__m128i; 2]) -> [__m128i; 2] =
             [_mm_xor_si128(a[0], b[0]), _mm_xor_si128(a[1], b[1])];
+        widen_u32(a: __m128i) -> [__m128i; 2] =
+            [_mm_unpacklo_epi32(a, _mm_setzero_si128()), _mm_unpackhi_epi32(a, _mm_setzero_si128())];
         product(a: __m128i, b: __m128i) -> [__m128i; 2] = [
             _mm_mul_epu32(_mm_unpacklo_epi32(a, a), _mm_unpacklo_epi32(b, b)),
             _mm_mul_epu32(_mm_unpackhi_epi32(a, a), _mm_unpackhi_epi32(b, b)),
@@ -101,6 +109,83 @@ impl Lanes for Sse2 {
     #[inline(always)]
     fn mul_u32(self, a: __m128i, b: __m128i) -> __m128i {
         self.low(self.product(a, b))
+    }
+
+    #[inline(always)]
+    fn gather_runs<const K: usize>(self, table: &[f32], index: __m128i) -> [[__m128; 4]; K] {
+        let mut runs = [[self.splat(0.0); 4]; K];
+        let Some(last) = table.len().checked_sub(4 * K) else { return runs };
+        let [a, b, c, d, ..] = self.array_u32(index).map(|index| last.min(index as usize));
+        for (k, run) in runs.iter_mut().enumerate() {
+            // SAFETY: SSE2 is there, and from each beginning on the table has 4·K elements, of which these are four.
+            unsafe {
+                let four = |begin: usize| _mm_loadu_ps(table.as_ptr().add(begin + 4 * k));
+                *run = transposed([four(a), four(b), four(c), four(d)]);
+            }
+        }
+        runs
+    }
+
+    #[inline(always)]
+    fn store_fours(self, columns: [__m128i; 4], to: &mut [[u32; 4]; LARGEST_WIDTH]) {
+        let [a, b, c, d] = columns.map(|column| self.of_bits(column));
+        for (four, row) in to.iter_mut().zip(transposed([a, b, c, d])) {
+            self.store_u32(self.to_bits(row), four);
+        }
+    }
+
+    #[inline(always)]
+    fn store_eights(self, columns: [__m128i; 8], to: &mut [[u32; 8]; LARGEST_WIDTH]) {
+        let [a, b, c, d, e, f, g, h] = columns.map(|column| self.of_bits(column));
+        let rows = transposed([a, b, c, d]).into_iter().zip(transposed([e, f, g, h]));
+        for (eight, (lower, upper)) in to.iter_mut().zip(rows) {
+            let (first, last) = eight.split_at_mut(4);
+            self.store_u32(self.to_bits(lower), first);
+            self.store_u32(self.to_bits(upper), last);
+        }
+    }
+
+    #[inline(always)]
+    fn of_i64(self, a: [__m128i; 2]) -> __m128 {
+        // SAFETY: SSE2 is there.
+        unsafe {
+            let offset = _mm_set1_epi64x(1 << 51);
+            let above = |a| _mm_srli_epi64::<52>(_mm_add_epi64(a, offset));
+            if self.bits(self.equal(_mm_or_si128(above(a[0]), above(a[1])), _mm_setzero_si128())) != 15 {
+                let mut converted = [0.0; WIDTH];
+                for (converted, value) in converted.iter_mut().zip(self.array_u64(a)) {
+                    *converted = value as i64 as f32;
+                }
+                return self.load_f32(&converted);
+            }
+            // Exact in binary64, so that it is rounded once.
+            let exact = |a| {
+                let sum = _mm_add_epi64(a, _mm_castpd_si128(_mm_set1_pd(INTEGERS)));
+                _mm_cvtpd_ps(_mm_sub_pd(_mm_castsi128_pd(sum), _mm_set1_pd(INTEGERS)))
+            };
+            _mm_movelh_ps(exact(a[0]), exact(a[1]))
+        }
+    }
+
+    #[inline(always)]
+    fn round_i64(self, a: __m128) -> [__m128i; 2] {
+        let fits = self.less(self.abs(a), self.splat(LARGEST_ROUNDED));
+        if self.bits(fits) != 15 {
+            let mut rounded = [0; WIDTH];
+            for (rounded, value) in rounded.iter_mut().zip(self.array_f32(a)) {
+                *rounded = meniscus_core::units::round_half_even(value) as u64;
+            }
+            return self.load_u64(&rounded);
+        }
+        // SAFETY: SSE2 is there.
+        unsafe {
+            let integers = _mm_set1_pd(INTEGERS);
+            let round = |a| {
+                let sum = _mm_add_pd(_mm_cvtps_pd(a), integers);
+                _mm_sub_epi64(_mm_castpd_si128(sum), _mm_castpd_si128(integers))
+            };
+            [round(a), round(_mm_movehl_ps(a, a))]
+        }
     }
 
     #[inline(always)]
@@ -315,5 +400,21 @@ fn multiply(a: __m128i, b: __m128i) -> __m128i {
             _mm_mul_epu32(a, _mm_srli_epi64::<32>(b)),
         );
         _mm_add_epi64(_mm_mul_epu32(a, b), _mm_slli_epi64::<32>(crossed))
+    }
+}
+
+/// Rows of four as columns.
+#[inline(always)]
+fn transposed([a, b, c, d]: [__m128; 4]) -> [__m128; 4] {
+    // SAFETY: SSE2 is part of x86-64.
+    unsafe {
+        let (low, high) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
+        let (low_next, high_next) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
+        [
+            _mm_movelh_ps(low, low_next),
+            _mm_movehl_ps(low_next, low),
+            _mm_movelh_ps(high, high_next),
+            _mm_movehl_ps(high_next, high),
+        ]
     }
 }

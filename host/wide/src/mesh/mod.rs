@@ -98,6 +98,12 @@ impl Solver {
         Self { grid, level, field, method }
     }
 
+    /// The grid.
+    #[must_use]
+    pub const fn grid(&self) -> Grid {
+        self.grid
+    }
+
     /// The field: F_x + i·F_y of node (x, y), in kBT/R0, is element x·[`pitch`](Self::pitch) + y.
     ///
     /// Before anything is solved, and between the elements of a row and the next, it holds anything.
