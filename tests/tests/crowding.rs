@@ -92,17 +92,3 @@ fn cells_are_as_wide_as_the_repulsion_reaches_and_no_more_than_the_nodes() {
     let some = Crowding::new(1 << 20, Grid::SMALLEST);
     assert!(some.concerns(LARGEST_HEAP + 1) && !some.concerns(LARGEST_HEAP));
 }
-
-#[test]
-fn two_to_the_22_discs_are_taken_and_not_one_more() {
-    assert_eq!(LARGEST_PARTICLE_COUNT, 1 << 22);
-    // Without forces, on the smallest mesh.
-    let parameters = Parameters { side: 256.0, grid: 16, repulsion: false, ..REPELLING };
-    let place = |id: u32| (id, Position::from_bits(id << 10, id.reverse_bits()));
-    let mut arrays = Arrays::new(16, 1, LARGEST_PARTICLE_COUNT + 1);
-    let run = |count: u32, arrays: &mut Arrays| {
-        Dynamics::new(&parameters, Clock::START, (0..count).map(place), &mut arrays.memory()).map(|_| ())
-    };
-    assert_eq!(run(1 << 22, &mut arrays), Ok(()));
-    assert!(run((1 << 22) + 1, &mut arrays).is_err());
-}

@@ -93,7 +93,15 @@ proptest! {
         prop_assert_eq!(State::from_bytes(&whole[..place]).is_err(), place != without);
         let mut bytes = whole.clone();
         bytes.push(byte);
-        prop_assert_eq!(State::from_bytes(&bytes), Err(StateError::Trailing { expected: whole.len() as u64 }));
+        let end = whole.len() as u64;
+        let refused = if byte == b'H' && !state.positions.is_empty() {
+            // Held forces may follow.
+            let expected = end + 12 + 24 * state.positions.len() as u64;
+            StateError::Truncated { found: end + 1, expected }
+        } else {
+            StateError::Trailing { expected: end }
+        };
+        prop_assert_eq!(State::from_bytes(&bytes), Err(refused));
         bytes.pop();
         bytes[place] = byte;
         if let Ok(read) = State::from_bytes(&bytes) {

@@ -151,9 +151,10 @@ mod tests {
     #[test]
     fn every_preset_gives_every_key_that_applies_and_is_not_chosen() {
         use crate::configuration::entries::Entries;
-        /// Chosen for the accuracy, or nothing: no preset has external fields or unequal discs.
+        /// Chosen for the accuracy, or nothing: no preset has external fields or unequal discs, or holds mesh forces.
         fn is_left(key: &str) -> bool {
-            let (tables, leaves) = (["mesh.", "field."], ["force.splitting", "force.cutoff", ".strengths"]);
+            let tables = ["mesh.", "field."];
+            let leaves = ["force.splitting", "force.cutoff", "force.mesh_refresh", ".strengths"];
             tables.iter().any(|table| key.starts_with(table)) || leaves.iter().any(|leaf| key.ends_with(leaf))
         }
         for preset in PRESETS {
