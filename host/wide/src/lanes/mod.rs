@@ -37,6 +37,7 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod combs;
 mod level;
 #[cfg(target_arch = "aarch64")]
 mod neon;
@@ -48,6 +49,7 @@ mod sixteen;
 mod sse2;
 mod views;
 
+pub use combs::{Comb, combs};
 pub use level::{Kernel, Level};
 pub use sixteen::{Rows, Sixteen, complex_of_sixteens, complex_of_sixteens_mut};
 pub use views::{

@@ -96,7 +96,10 @@ impl Kernel for Work<'_> {
         for tile in 0..tiles.upper.count() {
             across.run(lanes, spectrum, &OfTile { rows: &tiles.upper, tile }, &mut InPlace);
             let first = 16 * (tiles.first + tile);
-            let spectrum = Spectrum { spectrum, influence: &tables.influence[first..], tables, first, side };
+            let mut along_y = [0.0; 16];
+            along_y.copy_from_slice(&tables.gradient[first..first + 16]);
+            let spectrum =
+                Spectrum { spectrum, influence: &tables.influence[first..], tables, along_y, side };
             across.run(lanes, scratch, &Upper(&spectrum), &mut ToTile { rows: &mut tiles.upper, tile });
             let sink = &mut ToTile { rows: &mut tiles.lower, tile };
             if first == 0 {
@@ -133,7 +136,7 @@ impl Sink for ToTile<'_, '_> {
     fn store<L: Lanes>(
         &mut self,
         lanes: L,
-        _scratch: &mut [Sixteen],
+        _place: &mut Sixteen,
         index: usize,
         part: usize,
         value: Complex<L>,
@@ -150,7 +153,8 @@ struct Spectrum<'a> {
     /// The influence function from element `first` on: with its symmetry, row l has that of the tile's rows at l.
     influence: &'a [f32],
     tables: &'a Tables<'a>,
-    first: usize,
+    /// The gradient along y of the tile's rows.
+    along_y: [f32; 16],
     side: usize,
 }
 
@@ -161,13 +165,13 @@ struct Products<L: Lanes> {
 }
 
 impl Spectrum<'_> {
-    /// Of element x, the gradients multiplied with `sign_x` and `sign_y`, which are 1 or −1.
+    /// Of element x, whose frequency is ± `frequency`.
     #[inline(always)]
     fn products<L: Lanes>(&self, lanes: L, x: usize, frequency: usize, part: usize) -> Products<L> {
         let value = load(lanes, &self.spectrum[x], part);
-        let factor = lanes.load_f32(&self.influence[frequency * (self.side / 2 + 1) + part..]);
+        let factor = lanes.load_f32(&self.influence[frequency * (self.side / 2 + 1)..][..16][part..]);
         let along_x = lanes.splat(self.tables.gradient[x]);
-        let along_y = lanes.load_f32(&self.tables.gradient[self.first + part..]);
+        let along_y = lanes.load_f32(&self.along_y[part..]);
         let (re, im) = (lanes.mul(factor, value.re), lanes.mul(factor, value.im));
         Products {
             along_x: Complex { re: lanes.mul(along_x, re), im: lanes.mul(along_x, im) },

@@ -2,7 +2,7 @@
 
 use super::butterflies::{Complex, Stages};
 use super::factors::{self, AtZero, Same};
-use crate::lanes::{Kernel, Lanes, Sixteen};
+use crate::lanes::{Comb, Kernel, Lanes, Sixteen, combs};
 use core::marker::PhantomData;
 use meniscus_core::transform::Complex32;
 
@@ -29,11 +29,11 @@ pub(crate) trait Source {
 
 /// Where the elements of transformed lines go.
 pub(crate) trait Sink {
-    /// Takes lanes `part` … of element `index`, whose place is `scratch[index]` as well.
+    /// Takes lanes `part` … of element `index`, whose place in the memory the pass works in is `place`.
     fn store<L: Lanes>(
         &mut self,
         lanes: L,
-        scratch: &mut [Sixteen],
+        place: &mut Sixteen,
         index: usize,
         part: usize,
         value: Complex<L>,
@@ -58,12 +58,12 @@ impl Sink for InPlace {
     fn store<L: Lanes>(
         &mut self,
         lanes: L,
-        scratch: &mut [Sixteen],
-        index: usize,
+        place: &mut Sixteen,
+        _index: usize,
         part: usize,
         value: Complex<L>,
     ) {
-        store(lanes, value, &mut scratch[index], part);
+        store(lanes, value, place, part);
     }
 }
 
@@ -87,15 +87,15 @@ pub(crate) struct Plan {
 /// Numbers each pass joins, for lines of 2^`exponent` elements.
 fn radices(exponent: u32, width: usize) -> &'static [usize] {
     match (exponent, width) {
-        (4, 16) => &[16],
+        (4, 16) => &[4, 4],
         (5, 16) => &[4, 8],
         (6, 16) => &[8, 8],
-        (7, 16) => &[8, 16],
-        (8, 16) => &[16, 16],
+        (7, 16) => &[4, 4, 8],
+        (8, 16) => &[4, 8, 8],
         (9, 16) => &[8, 8, 8],
-        (10, 16) => &[8, 8, 16],
-        (11, 16) => &[8, 16, 16],
-        (12, 16) => &[16, 16, 16],
+        (10, 16) => &[4, 4, 8, 8],
+        (11, 16) => &[4, 8, 8, 8],
+        (12, 16) => &[8, 8, 8, 8],
         (4, _) => &[4, 4],
         (5, _) => &[8, 4],
         (6, _) => &[4, 4, 4],
@@ -143,10 +143,10 @@ impl Plan {
         let scratch = &mut scratch[..self.points];
         let Some((last, middle)) = self.passes.split_last() else {
             self.first(lanes, 0, scratch, source);
-            for index in 0..self.points {
+            for (index, place) in scratch.iter_mut().enumerate() {
                 for part in (0..16).step_by(L::WIDTH) {
-                    let value = load(lanes, &scratch[index], part);
-                    sink.store(lanes, scratch, index, part, value);
+                    let value = load(lanes, place, part);
+                    sink.store(lanes, place, index, part, value);
                 }
             }
             return;
@@ -210,7 +210,10 @@ impl<R: Radix, S: Source> Kernel for First<'_, R, S> {
             let base = group.reverse_bits().checked_shr(shift).unwrap_or(0);
             for part in (0..16).step_by(L::WIDTH) {
                 let x = R::Numbers::<L>::from_source(lanes, self.source, base, stride, part);
-                x.joined(lanes, self.plan.start).to_sink(lanes, block, 0, 1, part, &mut InPlace);
+                let x = x.joined(lanes, self.plan.start);
+                for mut comb in R::Numbers::<L>::combs(block) {
+                    x.to_sink(lanes, &mut comb, 0, 1, part, &mut InPlace);
+                }
             }
         }
     }
@@ -250,15 +253,25 @@ impl<R: Radix, K: Sink> Kernel for Join<'_, R, K> {
     fn run<L: Lanes>(self, lanes: L) {
         let span = self.pass.span;
         for data in self.data.chunks_exact_mut(R::RADIX * span) {
-            for part in (0..16).step_by(L::WIDTH) {
-                let x = R::Numbers::<L>::from_blocks(lanes, data, 0, span, part);
-                x.joined(lanes, self.start).to_sink(lanes, data, 0, span, part, self.sink);
+            let mut combs = R::Numbers::<L>::combs(data);
+            if let Some(mut comb) = combs.next() {
+                for part in (0..16).step_by(L::WIDTH) {
+                    let x = R::Numbers::<L>::from_comb(lanes, &comb, part);
+                    x.joined(lanes, self.start).to_sink(lanes, &mut comb, 0, span, part, self.sink);
+                }
             }
             let factors = self.pass.factors.chunks_exact(R::RADIX / 2);
-            for (factors, element) in factors.zip(1..span) {
+            for (element, (factors, mut comb)) in factors.zip(combs).enumerate() {
                 for part in (0..16).step_by(L::WIDTH) {
-                    let x = R::Numbers::<L>::from_blocks(lanes, data, element, span, part);
-                    x.joined(lanes, Same(factors)).to_sink(lanes, data, element, span, part, self.sink);
+                    let x = R::Numbers::<L>::from_comb(lanes, &comb, part);
+                    x.joined(lanes, Same(factors)).to_sink(
+                        lanes,
+                        &mut comb,
+                        element + 1,
+                        span,
+                        part,
+                        self.sink,
+                    );
                 }
             }
         }
@@ -279,13 +292,17 @@ pub(crate) struct SixteenFold;
 pub(crate) trait Numbers<L: Lanes>: Stages<L> {
     /// Elements base + j·stride of a source, the j in bit-reversed order.
     fn from_source(lanes: L, source: &impl Source, base: usize, stride: usize, part: usize) -> Self;
-    /// Elements base + i·stride of a slice.
-    fn from_blocks(lanes: L, data: &[Sixteen], base: usize, stride: usize, part: usize) -> Self;
-    /// To elements base + i·stride of a sink.
+    /// As many blocks of a slice, at the largest equal distances.
+    type Comb<'a>;
+    /// All combs of a slice.
+    fn combs(data: &mut [Sixteen]) -> impl Iterator<Item = Self::Comb<'_>>;
+    /// The elements of a comb.
+    fn from_comb(lanes: L, comb: &Self::Comb<'_>, part: usize) -> Self;
+    /// To elements base + i·stride of a sink, where they have the places of a comb.
     fn to_sink(
         self,
         lanes: L,
-        data: &mut [Sixteen],
+        comb: &mut Self::Comb<'_>,
         base: usize,
         stride: usize,
         part: usize,
@@ -312,22 +329,29 @@ macro_rules! numbers {
                 [$(source.load(lanes, base + $reversed * stride, $reversed >= $count / 2, part)),*]
             }
 
+            type Comb<'a> = Comb<'a, $count>;
+
             #[inline(always)]
-            fn from_blocks(lanes: L, data: &[Sixteen], base: usize, stride: usize, part: usize) -> Self {
-                [$(load(lanes, &data[base + $i * stride], part)),*]
+            fn combs(data: &mut [Sixteen]) -> impl Iterator<Item = Comb<'_, $count>> {
+                combs(data)
+            }
+
+            #[inline(always)]
+            fn from_comb(lanes: L, comb: &Comb<'_, $count>, part: usize) -> Self {
+                [$(load(lanes, comb.get::<$i>(), part)),*]
             }
 
             #[inline(always)]
             fn to_sink(
                 self,
                 lanes: L,
-                data: &mut [Sixteen],
+                comb: &mut Comb<'_, $count>,
                 base: usize,
                 stride: usize,
                 part: usize,
                 sink: &mut impl Sink,
             ) {
-                $(sink.store(lanes, data, base + $i * stride, part, self[$i]);)*
+                $(sink.store(lanes, comb.get_mut::<$i>(), base + $i * stride, part, self[$i]);)*
             }
         }
     };
