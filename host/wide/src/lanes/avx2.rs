@@ -433,13 +433,9 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn prefetch(self, block: &Sixteen) {
-        let first = block.0.as_ptr();
+    fn prefetch<T>(self, wanted: &T) {
         // SAFETY: a hint, which reads nothing.
-        unsafe {
-            _mm_prefetch::<_MM_HINT_T0>(first.cast());
-            _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(16).cast());
-        }
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
     }
 }
 

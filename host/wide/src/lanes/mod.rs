@@ -357,9 +357,9 @@ pub trait Lanes: Copy + Send + Sync + 'static {
         apart(kernel, self)
     }
 
-    /// Asks for a block to be brought near before it is needed. Changes nothing else.
+    /// Asks for the cache line in which something begins to be brought near before it is needed. Changes nothing else.
     #[inline(always)]
-    fn prefetch(self, block: &Sixteen) {
-        let _ = block;
+    fn prefetch<T>(self, wanted: &T) {
+        let _ = wanted;
     }
 }

@@ -2,7 +2,7 @@
 
 use super::GROUP;
 use crate::lanes::{Kernel, Lanes, Level, Sixteen};
-use crate::transform::{Along, Complex, LineSink, Source, load, store};
+use crate::transform::{Along, Complex, LineSink, Source, load, prefetch, store};
 use meniscus_core::grid::Grid;
 use meniscus_core::transform::Complex32;
 use rayon::prelude::*;
@@ -74,7 +74,7 @@ impl Kernel for Work<'_> {
     fn run<L: Lanes>(self, lanes: L) {
         let Self { columns: Columns { along, grid, pitch, signed, .. }, piece } = self;
         let Piece {
-            nodes: [left, right],
+            nodes: [left_nodes, right_nodes],
             fields: [first, second],
             nyquist: [nyquist, nyquist_after],
             scratch,
@@ -83,11 +83,19 @@ impl Kernel for Work<'_> {
         let blocks = along.blocks();
         let (scratch, spectrum) = scratch.split_at_mut(blocks);
         let spectrum = &mut spectrum[..blocks];
-        let masses = left.chunks_exact(side).zip(right.chunks_exact(side));
+        let masses = left_nodes.chunks_exact(side).zip(right_nodes.chunks_exact(side));
         let ends = nyquist.iter_mut().zip(nyquist_after);
         for (x, ((left, right), (end, end_after))) in masses.zip(ends).enumerate() {
             along.begin(lanes, scratch, &Masses { left, right, signed });
-            along.finish(lanes, scratch, &mut Spectrum(spectrum));
+            let next = x + 1;
+            let place = next / GROUP * GROUP * pitch + next % GROUP;
+            let next = Next {
+                left: masses_of(left_nodes, next, side),
+                right: masses_of(right_nodes, next, side),
+                first: first.get(place..).unwrap_or(&[]),
+                second: second.get(place..).unwrap_or(&[]),
+            };
+            along.finish(lanes, scratch, &mut Spectrum { spectrum, next });
             let place = x / GROUP * GROUP * pitch + x % GROUP;
             lanes.apart(Split { spectrum, first: &mut first[place..], second: &mut second[place..] });
             // Frequency M/2 is its own mirror.
@@ -119,13 +127,42 @@ impl Source for Masses<'_> {
     }
 }
 
+/// Line x of the nodes, if there is one.
+#[inline(always)]
+fn masses_of(nodes: &[u32], x: usize, side: usize) -> &[u32] {
+    nodes.get(x * side..).unwrap_or(&[])
+}
+
 /// A line of frequencies in their order.
-struct Spectrum<'a>(&'a mut [Sixteen]);
+struct Spectrum<'a> {
+    spectrum: &'a mut [Sixteen],
+    next: Next<'a>,
+}
+
+/// What is needed for the next columns.
+#[derive(Clone, Copy)]
+struct Next<'a> {
+    left: &'a [u32],
+    right: &'a [u32],
+    first: &'a [Sixteen],
+    second: &'a [Sixteen],
+}
 
 impl LineSink for Spectrum<'_> {
     #[inline(always)]
     fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>) {
-        store(lanes, value, &mut self.0[block], part);
+        store(lanes, value, &mut self.spectrum[block], part);
+        let Next { left, right, first, second } = self.next;
+        if part == 0 {
+            for next in [left.get(16 * block), right.get(16 * block)].into_iter().flatten() {
+                lanes.prefetch(next);
+            }
+        }
+        let half = self.spectrum.len() / 2;
+        let next = if block < half { first.get(block * GROUP) } else { second.get((block - half) * GROUP) };
+        if let Some(next) = next {
+            prefetch(lanes, next, part);
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::GROUP;
 use crate::lanes::{Kernel, Lanes, Level, Sixteen};
-use crate::transform::{Along, Complex, LineSink, Source, load};
+use crate::transform::{Along, Complex, LineSink, Source, load, prefetch};
 use meniscus_core::grid::Grid;
 use rayon::prelude::*;
 
@@ -46,13 +46,16 @@ impl Kernel for Work<'_> {
         let Lines { along, pitch, .. } = self.lines;
         let blocks = along.blocks();
         let scratch = &mut self.scratch[..GROUP * blocks];
-        for group in self.field.chunks_exact_mut(GROUP * pitch) {
+        let mut groups = self.field.chunks_exact_mut(GROUP * pitch).peekable();
+        while let Some(group) = groups.next() {
             for (line, scratch) in scratch.chunks_exact_mut(blocks).enumerate() {
                 along.begin(lanes, scratch, &Halves { group: &group[line..], half: blocks / 2 });
             }
             // All that was in the group is in the scratch memory, so that rows can take its place.
-            for (row, scratch) in group.chunks_exact_mut(pitch).zip(scratch.chunks_exact_mut(blocks)) {
-                along.finish(lanes, scratch, &mut Row(row));
+            let rows = group.chunks_exact_mut(pitch).zip(scratch.chunks_exact_mut(blocks));
+            for (number, (row, scratch)) in rows.enumerate() {
+                let next = groups.peek().map_or(&[][..], |next| &next[number * pitch..]);
+                along.finish(lanes, scratch, &mut Row { row, next });
             }
         }
     }
@@ -81,14 +84,21 @@ impl Source for Halves<'_> {
 }
 
 /// A row of the field: complex numbers one after another.
-struct Row<'a>(&'a mut [Sixteen]);
+struct Row<'a> {
+    row: &'a mut [Sixteen],
+    /// What is needed soon.
+    next: &'a [Sixteen],
+}
 
 impl LineSink for Row<'_> {
     #[inline(always)]
     fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>) {
         let (first, second) = lanes.interleave(value.re, value.im);
-        let numbers = &mut self.0[block].0[2 * part..];
+        let numbers = &mut self.row[block].0[2 * part..];
         lanes.store_f32(first, numbers);
         lanes.store_f32(second, &mut numbers[L::WIDTH..]);
+        if let Some(next) = self.next.get(block) {
+            prefetch(lanes, next, part);
+        }
     }
 }

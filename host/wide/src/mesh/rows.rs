@@ -5,7 +5,7 @@
 //! −(g_y S_re + g_x S_im) + i (g_x S_re − g_y S_im) at −k.
 
 use crate::lanes::{Kernel, Lanes, Level, Rows, Sixteen};
-use crate::transform::{Complex, InPlace, Plan, Sink, Source, load, store};
+use crate::transform::{Complex, Plan, Sink, Source, load, prefetch, store};
 use meniscus_core::grid::Grid;
 use meniscus_core::mesh::Tables;
 use meniscus_core::transform::{AnySize, Complex32, LineTransform};
@@ -94,14 +94,20 @@ impl Kernel for Work<'_> {
         let (spectrum, scratch) = scratch.split_at_mut(side);
         let scratch = &mut scratch[..side];
         for tile in 0..tiles.upper.count() {
-            across.run(lanes, spectrum, &OfTile { rows: &tiles.upper, tile }, &mut InPlace);
+            let stay = &mut Stay { soon: &tiles.lower, tile };
+            across.run(lanes, spectrum, &OfTile { rows: &tiles.upper, tile }, stay);
             let first = 16 * (tiles.first + tile);
             let mut along_y = [0.0; 16];
             along_y.copy_from_slice(&tables.gradient[first..first + 16]);
             let spectrum =
                 Spectrum { spectrum, influence: &tables.influence[first..], tables, along_y, side };
-            across.run(lanes, scratch, &Upper(&spectrum), &mut ToTile { rows: &mut tiles.upper, tile });
-            let sink = &mut ToTile { rows: &mut tiles.lower, tile };
+            across.run(
+                lanes,
+                scratch,
+                &Upper(&spectrum),
+                &mut ToTile { rows: &mut tiles.upper, tile, next: true },
+            );
+            let sink = &mut ToTile { rows: &mut tiles.lower, tile, next: false };
             if first == 0 {
                 across.run(lanes, scratch, &LowerWithNyquist { spectrum: &spectrum, nyquist }, sink);
             } else {
@@ -125,10 +131,34 @@ impl Source for OfTile<'_, '_> {
     }
 }
 
-/// To the blocks of a tile.
+/// Elements stay where they are, while the blocks of a tile are brought near.
+struct Stay<'a, 'b> {
+    soon: &'a Rows<'b>,
+    tile: usize,
+}
+
+impl Sink for Stay<'_, '_> {
+    #[inline(always)]
+    fn store<L: Lanes>(
+        &mut self,
+        lanes: L,
+        place: &mut Sixteen,
+        index: usize,
+        part: usize,
+        value: Complex<L>,
+    ) {
+        store(lanes, value, place, part);
+        if let Some(soon) = self.soon.get(self.tile, index) {
+            prefetch(lanes, soon, part);
+        }
+    }
+}
+
+/// To the blocks of a tile, while those of the next are brought near.
 struct ToTile<'a, 'b> {
     rows: &'a mut Rows<'b>,
     tile: usize,
+    next: bool,
 }
 
 impl Sink for ToTile<'_, '_> {
@@ -143,6 +173,11 @@ impl Sink for ToTile<'_, '_> {
     ) {
         if let Some(block) = self.rows.get_mut(self.tile, index) {
             store(lanes, value, block, part);
+        }
+        if self.next
+            && let Some(next) = self.rows.get(self.tile + 1, index)
+        {
+            prefetch(lanes, next, part);
         }
     }
 }

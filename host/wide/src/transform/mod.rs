@@ -24,7 +24,7 @@ mod passes;
 pub(crate) use along::{Along, LineSink};
 pub(crate) use butterflies::Complex;
 pub(crate) use factors::turns;
-pub(crate) use passes::{FromSlice, InPlace, Plan, Sink, Source, load, store};
+pub(crate) use passes::{FromSlice, InPlace, Plan, Sink, Source, load, prefetch, store};
 
 use crate::lanes::{Kernel, Lanes, Level, Sixteen};
 use meniscus_core::grid::Grid;

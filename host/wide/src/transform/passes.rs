@@ -21,6 +21,18 @@ pub(crate) fn store<L: Lanes>(lanes: L, value: Complex<L>, block: &mut Sixteen, 
     lanes.store_f32(value.im, &mut im[part..]);
 }
 
+/// Asks for a block to be brought near.
+#[inline(always)]
+pub(crate) fn prefetch<L: Lanes>(lanes: L, block: &Sixteen, part: usize) {
+    // The first part asks for the real parts, the last for the imaginary ones.
+    if part == 0 {
+        lanes.prefetch(&block.0[0]);
+    }
+    if part + L::WIDTH == 16 {
+        lanes.prefetch(&block.0[16]);
+    }
+}
+
 /// Where the elements of lines come from.
 pub(crate) trait Source {
     /// Lanes `part` … of element `index`; `upper` says whether it is in the second half of the line.
