@@ -30,10 +30,10 @@ pub const SEGMENTS_PER_OCTAVE: usize = 8;
 const SEGMENT_BITS: u32 = SEGMENTS_PER_OCTAVE.trailing_zeros();
 
 /// Bits of a binary32 number that tell where in its segment it is.
-const FRACTION_BITS: u32 = 23 - SEGMENT_BITS;
+pub const FRACTION_BITS: u32 = 23 - SEGMENT_BITS;
 
 /// Where the table begins, R0²: below the square of [`crate::repulsion::SMALLEST_DISTANCE`].
-const FIRST: f32 = 0.5;
+pub const FIRST: f32 = 0.5;
 
 /// Length of a table that serves every cut-off, as no box is larger than 2¹⁶ R0.
 pub const LARGEST_TABLE: usize = 31 * SEGMENTS_PER_OCTAVE;

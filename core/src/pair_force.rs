@@ -58,6 +58,9 @@ impl PairForce {
     /// The product of the strengths of two discs of strength 1.
     pub const EQUAL: f32 = 1.0;
 
+    /// The square of [`SMALLEST_DISTANCE`], R0².
+    pub const SMALLEST_SQUARED: f32 = (SMALLEST_DISTANCE * SMALLEST_DISTANCE) as f32;
+
     /// The pair force of valid parameters.
     #[must_use]
     pub fn new(parameters: &Parameters) -> Self {
@@ -101,6 +104,36 @@ impl PairForce {
         self.reach
     }
 
+    /// R0 in a unit of separation.
+    #[must_use]
+    pub fn unit(&self) -> f32 {
+        self.unit
+    }
+
+    /// The square of the larger cut-off, R0².
+    #[must_use]
+    pub fn cutoff_squared(&self) -> f32 {
+        self.reach_squared
+    }
+
+    /// The square of the cut-off of the repulsion, R0²; 0 without repulsion.
+    #[must_use]
+    pub fn repulsion_squared(&self) -> f32 {
+        self.repulsion_squared
+    }
+
+    /// The square of the cut-off of the near part, R0²; 0 without a near part.
+    #[must_use]
+    pub fn near_squared(&self) -> f32 {
+        self.near_squared
+    }
+
+    /// V0, kBT.
+    #[must_use]
+    pub fn strength(&self) -> f32 {
+        self.strength
+    }
+
     /// The force on the first disc of a pair, unit 2⁻²⁴ kBT/R0; `None` at or beyond the cut-off.
     ///
     /// The force on the second is the negative, bit for bit the same as with the discs exchanged.
@@ -115,17 +148,16 @@ impl PairForce {
         strengths: f32,
         table: &[Segment],
     ) -> Option<(i64, i64)> {
-        const SMALLEST_SQUARED: f32 = (SMALLEST_DISTANCE * SMALLEST_DISTANCE) as f32;
         let (x, y) = (separation.x as f32 * self.unit, separation.y as f32 * self.unit);
         let squared = x * x + y * y;
         if squared >= self.reach_squared {
             return None;
         }
-        if squared >= SMALLEST_SQUARED {
+        if squared >= Self::SMALLEST_SQUARED {
             let factor = self.over_distance(squared, strengths, table);
             return Some((quantise(factor * x), quantise(factor * y)));
         }
-        let force = self.over_distance(SMALLEST_SQUARED, strengths, table) * SMALLEST_DISTANCE as f32;
+        let force = self.over_distance(Self::SMALLEST_SQUARED, strengths, table) * SMALLEST_DISTANCE as f32;
         let distance = libm::sqrtf(squared);
         if distance > 0.0 {
             return Some((quantise(force * (x / distance)), quantise(force * (y / distance))));

@@ -1,6 +1,6 @@
 //! AVX2: eight numbers.
 
-use super::{Kernel, LARGEST_WIDTH, Lanes, Sixteen};
+use super::{gather_pairs, Kernel, LARGEST_WIDTH, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Eight numbers in a register of 256 bits.
@@ -437,6 +437,38 @@ impl Lanes for Avx2 {
         // SAFETY: a hint, which reads nothing.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
     }
+
+    #[inline(always)]
+    fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [__m256i; 2] {
+        let index = match index.first_chunk::<WIDTH>() {
+            Some(index) if self.bits(self.inside(table.len(), self.load_u32(index))) == 0xFF => index,
+            _ => return self.gather_pairs_of_some(table, index),
+        };
+        // SAFETY: `self` says that AVX2 is there; all indices are inside the table.
+        unsafe {
+            let first = table.as_ptr().cast::<f64>();
+            let two = |lane: usize| {
+                let lower = _mm_load_sd(first.add(index[lane] as usize));
+                _mm_loadh_pd(lower, first.add(index[lane + 1] as usize))
+            };
+            let four = |lane: usize| {
+                _mm256_castpd_ps(_mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(two(lane)), two(lane + 4)))
+            };
+            let (a, b) = (four(0), four(2));
+            [
+                _mm256_castps_si256(_mm256_shuffle_ps::<0b10_00_10_00>(a, b)),
+                _mm256_castps_si256(_mm256_shuffle_ps::<0b11_01_11_01>(a, b)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn prefetch_slice<T>(self, elements: &[T]) {
+        for offset in (0..size_of_val(elements)).step_by(64) {
+            // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(elements.as_ptr().cast::<i8>().add(offset)) }
+        }
+    }
 }
 
 impl Avx2 {
@@ -444,6 +476,13 @@ impl Avx2 {
     #[inline(always)]
     fn inside(self, length: usize, index: __m256i) -> __m256i {
         self.less_u32(index, self.splat_u32(length.min(i32::MAX as usize) as u32))
+    }
+
+    /// [`Lanes::gather_pairs`] where some indices are beyond the end.
+    #[cold]
+    fn gather_pairs_of_some(self, table: &[[u32; 2]], index: &[u32]) -> [__m256i; 2] {
+        let [first, second] = gather_pairs(table, index, WIDTH);
+        [self.load_u32(&first), self.load_u32(&second)]
     }
 }
 

@@ -1,6 +1,6 @@
 //! AVX-512: sixteen numbers.
 
-use super::{Kernel, Lanes, Sixteen};
+use super::{gather_pairs, Kernel, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Sixteen numbers in a register of 512 bits.
@@ -399,6 +399,53 @@ impl Lanes for Avx512 {
         // SAFETY: a hint, which reads nothing.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
     }
+
+    #[inline(always)]
+    fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [__m512i; 2] {
+        let index = match index.first_chunk::<WIDTH>() {
+            Some(index) if self.inside(table.len(), self.load_u32(index)) == 0xFFFF => index,
+            _ => return self.gather_pairs_of_some(table, index),
+        };
+        // SAFETY: `self` says that AVX-512 is there; all indices are inside the table.
+        unsafe {
+            let first = table.as_ptr().cast::<f64>();
+            let two = |lane: usize| {
+                let lower = _mm_load_sd(first.add(index[lane] as usize));
+                _mm_loadh_pd(lower, first.add(index[lane + 1] as usize))
+            };
+            let eight = |lane: usize| {
+                let pairs = _mm512_castpd128_pd512(two(lane));
+                let lower = _mm256_insertf128_pd::<1>(_mm512_castpd512_pd256(pairs), two(lane + 4));
+                let upper = _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(two(lane + 8)), two(lane + 12));
+                _mm512_castpd_ps(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(lower), upper))
+            };
+            let (a, b) = (eight(0), eight(2));
+            [
+                _mm512_castps_si512(_mm512_shuffle_ps::<0b10_00_10_00>(a, b)),
+                _mm512_castps_si512(_mm512_shuffle_ps::<0b11_01_11_01>(a, b)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn look_up(self, table: &[f32; 64], index: __m512i) -> __m512 {
+        // SAFETY: `self` says that AVX-512 is there, and the table has four times sixteen elements; they need not be
+        // aligned.
+        unsafe {
+            let part = |number: usize| _mm512_loadu_ps(table.as_ptr().add(16 * number));
+            let lower = _mm512_permutex2var_ps(part(0), index, part(1));
+            let upper = _mm512_permutex2var_ps(part(2), index, part(3));
+            _mm512_mask_blend_ps(_mm512_test_epi32_mask(index, _mm512_set1_epi32(32)), lower, upper)
+        }
+    }
+
+    #[inline(always)]
+    fn prefetch_slice<T>(self, elements: &[T]) {
+        for offset in (0..size_of_val(elements)).step_by(64) {
+            // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(elements.as_ptr().cast::<i8>().add(offset)) }
+        }
+    }
 }
 
 impl Avx512 {
@@ -406,6 +453,13 @@ impl Avx512 {
     #[inline(always)]
     fn inside(self, length: usize, index: __m512i) -> __mmask16 {
         self.less_u32(index, self.splat_u32(length.min(i32::MAX as usize) as u32))
+    }
+
+    /// [`Lanes::gather_pairs`] where some indices are beyond the end.
+    #[cold]
+    fn gather_pairs_of_some(self, table: &[[u32; 2]], index: &[u32]) -> [__m512i; 2] {
+        let [first, second] = gather_pairs(table, index, WIDTH);
+        [self.load_u32(&first), self.load_u32(&second)]
     }
 }
 

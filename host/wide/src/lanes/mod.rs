@@ -176,6 +176,23 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     /// The elements of a table at these indices, not signed; 0 beyond its end.
     fn gather_u32(self, table: &[u32], index: Self::U32) -> Self::U32;
 
+    /// The pairs of a table at as many indices, the first numbers of all and the second ones; 0 beyond its end.
+    #[inline(always)]
+    fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [Self::U32; 2] {
+        let [first, second] = gather_pairs(table, index, Self::WIDTH);
+        [self.load_u32(&first), self.load_u32(&second)]
+    }
+
+    /// The elements of a short table at the lowest six bits of these indices.
+    #[inline(always)]
+    fn look_up(self, table: &[f32; 64], index: Self::U32) -> Self::F32 {
+        self.gather_f32(table, self.and(index, self.splat_u32(63)))
+    }
+
+    /// Asks for the memory of elements that are of use soon, where there is an instruction for that.
+    #[inline(always)]
+    fn prefetch_slice<T>(self, _elements: &[T]) {}
+
     /// Runs of 4·`K` elements of a table that begin at these indices, not signed: `[k][i]` holds element 4k + i of each.
     /// A run that would reach beyond the end is moved up to it; a table shorter than a run gives zeros.
     #[inline(always)]
@@ -362,4 +379,15 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     fn prefetch<T>(self, wanted: &T) {
         let _ = wanted;
     }
+}
+
+/// The pairs of a table at the first `width` indices, the first numbers and the second ones; 0 beyond its end.
+#[inline(always)]
+fn gather_pairs(table: &[[u32; 2]], index: &[u32], width: usize) -> [[u32; LARGEST_WIDTH]; 2] {
+    let mut pairs = [[0; LARGEST_WIDTH]; 2];
+    let [first, second] = &mut pairs;
+    for ((first, second), &index) in first.iter_mut().zip(second).zip(index).take(width) {
+        [*first, *second] = table.get(index as usize).copied().unwrap_or([0; 2]);
+    }
+    pairs
 }

@@ -1,6 +1,6 @@
 //! SSE2: four numbers, on every x86-64.
 
-use super::{LARGEST_WIDTH, Lanes, Sixteen};
+use super::{gather_pairs, LARGEST_WIDTH, Lanes, Sixteen};
 use core::arch::x86_64::*;
 
 /// Four numbers in a register of 128 bits.
@@ -383,6 +383,34 @@ impl Lanes for Sse2 {
     fn prefetch<T>(self, wanted: &T) {
         // SAFETY: a hint, which reads nothing.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
+    }
+
+    #[inline(always)]
+    fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [__m128i; 2] {
+        let pair = |lane: usize| index.get(lane).and_then(|&index| table.get(index as usize));
+        let (Some(a), Some(b), Some(c), Some(d)) = (pair(0), pair(1), pair(2), pair(3)) else {
+            let [first, second] = gather_pairs(table, index, WIDTH);
+            return [self.load_u32(&first), self.load_u32(&second)];
+        };
+        // SAFETY: SSE2 is there, and each pair has 64 bits.
+        unsafe {
+            let two = |lower: &[u32; 2], upper: &[u32; 2]| {
+                _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(lower.as_ptr().cast()), upper.as_ptr().cast()))
+            };
+            let (ab, cd) = (two(a, b), two(c, d));
+            [
+                _mm_castps_si128(_mm_shuffle_ps::<0b10_00_10_00>(ab, cd)),
+                _mm_castps_si128(_mm_shuffle_ps::<0b11_01_11_01>(ab, cd)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn prefetch_slice<T>(self, elements: &[T]) {
+        for offset in (0..size_of_val(elements)).step_by(64) {
+            // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(elements.as_ptr().cast::<i8>().add(offset)) }
+        }
     }
 }
 
