@@ -36,7 +36,9 @@ pub trait Stages {
     /// are right for the run. Arrays of discs and tables are checked by the caller.
     fn fits(&self, forces: &Forces, memory: &Memory<'_>) -> bool;
 
-    /// May store the discs in another order: all arrays of discs alike, and `slots` so that it says where each id is.
+    /// May store the discs in another order: ids, coordinates, crossings, strengths and what is held (force and
+    /// reference) alike, and `slots` so that it says where each id is. The other arrays of discs hold nothing that is
+    /// looked at afterwards.
     fn arrange(&mut self, _forces: &Forces, _memory: &mut Memory<'_>) {}
 
     /// Puts the capillary force of the mesh on every disc into `force_x` and `force_y`; 0 if there is none.

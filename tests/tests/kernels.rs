@@ -148,6 +148,7 @@ fn what_runs_every_step_is_free_of_binary64() {
     for room in [
         "assignment.rs",
         "cells.rs",
+        "crowding.rs",
         "digest.rs",
         "forces.rs",
         "grid.rs",
@@ -165,11 +166,12 @@ fn what_runs_every_step_is_free_of_binary64() {
     }
     // The kernels of rooms that also set up.
     let kernels = [
-        ("dynamics.rs", vec!["forces", "next_step", "step", "displacement"]),
+        ("dynamics.rs", vec!["forces", "next_step", "step", "compute", "displacement", "keep_forces"]),
         ("fields.rs", vec!["is_zero", "at"]),
         ("near_part.rs", vec!["index_of", "evaluate"]),
         ("pair_force.rs", vec!["of", "over_distance", "product_of_strengths", "quantise"]),
         ("ermak.rs", vec!["largest_force", "step_length", "of", "component", "displace"]),
+        ("refresh.rs", vec!["is_due", "holds", "at", "to_bytes"]),
         ("repulsion.rs", vec!["force_over_distance"]),
         ("torus.rs", vec!["minimum_image"]),
         ("units.rs", vec!["round_half_even"]),
