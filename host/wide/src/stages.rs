@@ -22,17 +22,23 @@
 
 use crate::assignment::{Field, MeshAssignment};
 use crate::division::Division;
-use crate::lanes::Level;
+use crate::lanes::{Level, bits_of_fractions};
 use crate::mesh::Solver;
 use crate::motion::Motion;
+use crate::neighbours::Neighbours;
+use crate::order::permute;
+use crate::pairs::{Discs, PairLoop, Strengths};
 use meniscus_core::assignment::Crowded;
 use meniscus_core::ermak::{Displacement, HalfBox};
 use meniscus_core::forces::{Coupling, Forces};
 use meniscus_core::grid::Grid;
 use meniscus_core::memory::Memory;
 use meniscus_core::mesh::Tables;
+use meniscus_core::near_part::{Segment, fill_table, table_length};
+use meniscus_core::pair_force::{PairForce, near_cutoff};
 use meniscus_core::parameters::Parameters;
 use meniscus_core::stages::{Scalar, Stages};
+use meniscus_core::torus::Fraction;
 use meniscus_core::transform::AnySize;
 
 /// The stages of one run, and the arrays that are theirs alone: `field`, `lines` and `next` of the memory are not used.
@@ -41,6 +47,19 @@ pub struct Wide {
     level: Level,
     division: Division,
     solver: Solver,
+    force: PairForce,
+    pairs: PairLoop,
+    neighbours: Neighbours,
+    /// For putting the discs into another order.
+    scratch: Scratch,
+}
+
+#[derive(Debug, Default)]
+struct Scratch {
+    of_32_bits: Vec<u32>,
+    signed: Vec<i32>,
+    fractions: Vec<Fraction>,
+    of_64_bits: Vec<i64>,
 }
 
 impl Wide {
@@ -56,7 +75,18 @@ impl Wide {
     pub fn with(parameters: &Parameters, level: Level, division: Division) -> Self {
         // What `Dynamics` was made of is valid; stages of other parameters do not fit it.
         let grid = Grid::new(parameters.grid).unwrap_or(Grid::SMALLEST);
-        Self { level, division, solver: Solver::new(grid, level) }
+        let force = PairForce::new(parameters);
+        let mut table = vec![Segment::default(); table_length(near_cutoff(parameters))];
+        fill_table(parameters.splitting, parameters.capillary_length, &mut table);
+        Self {
+            level,
+            division,
+            solver: Solver::new(grid, level),
+            force,
+            pairs: PairLoop::new(level, &force, &table),
+            neighbours: Neighbours::new(level, force.reach()),
+            scratch: Scratch::default(),
+        }
     }
 
     /// In how many threads a step is best called.
@@ -76,10 +106,47 @@ impl Wide {
     }
 }
 
+impl Scratch {
+    /// Stores the discs in this order.
+    fn store(&mut self, order: &[u32], discs: &mut Memory<'_>) {
+        permute(order, discs.ids, &mut self.of_32_bits);
+        for (slot, &id) in discs.ids.iter().enumerate() {
+            if let Some(place) = discs.slots.get_mut(id as usize) {
+                *place = slot as u32;
+            }
+        }
+        for values in [&mut *discs.x, discs.y, discs.reference_x, discs.reference_y] {
+            permute(order, values, &mut self.fractions);
+        }
+        for values in [&mut *discs.crossings_x, discs.crossings_y, discs.strengths] {
+            permute(order, values, &mut self.signed);
+        }
+        for values in [&mut *discs.held_x, discs.held_y] {
+            permute(order, values, &mut self.of_64_bits);
+        }
+    }
+}
+
 impl Stages for Wide {
     fn fits(&self, forces: &Forces, memory: &Memory<'_>) -> bool {
         let side = forces.grid().nodes();
-        memory.nodes.len() == side * side && self.solver.grid() == forces.grid()
+        memory.nodes.len() == side * side
+            && self.solver.grid() == forces.grid()
+            && self.force == *forces.pairs()
+    }
+
+    /// Makes new lists of neighbours where the old ones have become useless, and stores the discs in the order of cells.
+    fn arrange(&mut self, forces: &Forces, memory: &mut Memory<'_>) {
+        let pieces = self.division.discs;
+        let (x, y) = (bits_of_fractions(memory.x), bits_of_fractions(memory.y));
+        if forces.pairs().reach() == 0 || self.neighbours.is_fresh(x, y, pieces) {
+            return;
+        }
+        let order = self.neighbours.arrange(x, y);
+        if !order.is_identity() {
+            self.scratch.store(order.discs(), memory);
+        }
+        self.neighbours.rebuild(bits_of_fractions(memory.x), bits_of_fractions(memory.y), pieces);
     }
 
     fn mesh(&mut self, forces: &Forces, memory: &mut Memory<'_>) -> Result<(), Crowded> {
@@ -116,7 +183,13 @@ impl Stages for Wide {
     }
 
     fn add_pairs(&mut self, forces: &Forces, memory: &mut Memory<'_>) {
-        Scalar(AnySize).add_pairs(forces, memory);
+        let strengths = match forces.coupling() {
+            Coupling::None => Strengths::Alike(0.0),
+            Coupling::Equal => Strengths::Alike(PairForce::EQUAL),
+            Coupling::Unequal => Strengths::Each(memory.strengths),
+        };
+        let discs = Discs { ids: memory.ids, strengths };
+        self.pairs.add(&self.neighbours, &discs, (memory.force_x, memory.force_y));
     }
 
     fn add_fields(&mut self, forces: &Forces, memory: &mut Memory<'_>) {

@@ -1,6 +1,6 @@
 //! AVX2: eight numbers.
 
-use super::{gather_pairs, Kernel, LARGEST_WIDTH, Lanes, Sixteen};
+use super::{Kernel, LARGEST_WIDTH, Lanes, Sixteen, gather_pairs};
 use core::arch::x86_64::*;
 
 /// Eight numbers in a register of 256 bits.

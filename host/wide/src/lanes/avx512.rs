@@ -1,6 +1,6 @@
 //! AVX-512: sixteen numbers.
 
-use super::{gather_pairs, Kernel, Lanes, Sixteen};
+use super::{Kernel, Lanes, Sixteen, gather_pairs};
 use core::arch::x86_64::*;
 
 /// Sixteen numbers in a register of 512 bits.

@@ -1,6 +1,6 @@
 //! SSE2: four numbers, on every x86-64.
 
-use super::{gather_pairs, LARGEST_WIDTH, Lanes, Sixteen};
+use super::{LARGEST_WIDTH, Lanes, Sixteen, gather_pairs};
 use core::arch::x86_64::*;
 
 /// Four numbers in a register of 128 bits.
