@@ -2,9 +2,9 @@
 //!
 //! [`LARGEST_HEAP`] discs may lie anywhere, all of them in one place if need be. Of more discs that repel each other, no
 //! cell of a division of the box into c × c may hold more than [`LARGEST_CELL`]; c is the largest power of two for which a cell
-//! is at least as wide as the cut-off of the repulsion, and at most M. All discs that repel one disc then lie in 3 × 3
-//! cells. [`crate::units`] shows that this is enough. Nothing physical is refused: fewer than a hundred discs side by side
-//! fill the widest cell.
+//! is at least as wide as the cut-off of the repulsion, and at most M and [`MOST_CELLS`]. All discs that repel one disc then lie in 3 × 3
+//! cells. [`crate::units`] shows that this is enough. Nothing physical is refused: 19 000 discs side by side fill the widest
+//! cell of the largest box.
 //!
 //! The count is of integers, hence free of order.
 //!
@@ -31,6 +31,9 @@ pub const LARGEST_HEAP: usize = 1 << 19;
 /// So many of a larger number of discs may lie in one cell.
 pub const LARGEST_CELL: u32 = 1 << 15;
 
+/// So many cells a side, 2⁸, are counted in at most: few enough to stay near the processor.
+pub const MOST_CELLS: usize = 256;
+
 /// The cells in which discs are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crowding {
@@ -44,7 +47,7 @@ impl Crowding {
     pub fn new(reach: u32, grid: Grid) -> Self {
         // 2³² over the power of two at or above the reach.
         let widest = reach.checked_sub(1).map_or(0, u32::leading_zeros);
-        Self { exponent: widest.min(grid.exponent()) }
+        Self { exponent: widest.min(grid.exponent()).min(MOST_CELLS.trailing_zeros()) }
     }
 
     /// For statics; of no use before it is replaced.
@@ -74,7 +77,7 @@ impl Crowding {
         counts.fill(0);
         let index = |at: Fraction| (u64::from(at.to_bits()) << self.exponent >> 32) as usize;
         for (&x, &y) in x.iter().zip(y) {
-            if let Some(count) = counts.get_mut((index(y) << self.exponent) + index(x)) {
+            if let Some(count) = counts.get_mut((index(x) << self.exponent) + index(y)) {
                 *count = count.saturating_add(1);
             }
         }
