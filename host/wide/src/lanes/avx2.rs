@@ -390,40 +390,47 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
-        // SAFETY: `self` says that AVX2 is there; a block has 32 numbers, of which the eight from `half` + 0 or 8 and
-        // the four from there + 0 or 4 are read or written.
+    fn mirrored_reversed(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> __m256 {
+        // SAFETY: `self` says that AVX2 is there, and the arrays have sixteen elements.
         unsafe {
-            for half in [0, 16] {
-                for first in [0, 8] {
-                    let halves = |row: usize, column: usize| {
-                        let four = |row: usize| _mm_loadu_ps(from[row].0.as_ptr().add(half + column));
-                        _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(four(row)), four(row + 4))
-                    };
-                    for column in [0, 4, 8, 12] {
-                        let rows = [
-                            halves(first, column),
-                            halves(first + 1, column),
-                            halves(first + 2, column),
-                            halves(first + 3, column),
-                        ];
-                        let low = _mm256_unpacklo_ps(rows[0], rows[1]);
-                        let high = _mm256_unpackhi_ps(rows[0], rows[1]);
-                        let low_after = _mm256_unpacklo_ps(rows[2], rows[3]);
-                        let high_after = _mm256_unpackhi_ps(rows[2], rows[3]);
-                        let columns = [
-                            _mm256_shuffle_ps::<0b01_00_01_00>(low, low_after),
-                            _mm256_shuffle_ps::<0b11_10_11_10>(low, low_after),
-                            _mm256_shuffle_ps::<0b01_00_01_00>(high, high_after),
-                            _mm256_shuffle_ps::<0b11_10_11_10>(high, high_after),
-                        ];
-                        for (place, value) in columns.into_iter().enumerate() {
-                            _mm256_storeu_ps(to[column + place].0.as_mut_ptr().add(half + first), value);
-                        }
-                    }
-                }
+            let [low, high] = [_mm256_loadu_ps(rest.as_ptr()), _mm256_loadu_ps(rest.as_ptr().add(8))];
+            if part == 0 {
+                // 16, 8, 12, 4, 14, 6, 10, 2
+                let even = _mm256_shuffle_ps::<0b10_00_10_00>(low, high);
+                let order = _mm256_setr_epi32(0, 2, 6, 4, 7, 5, 3, 1);
+                let order = _mm256_permutevar8x32_ps(even, order);
+                _mm256_blend_ps::<1>(order, _mm256_loadu_ps(first.as_ptr()))
+            } else {
+                // 15, 7, 11, 3, 13, 5, 9, 1
+                let odd = _mm256_shuffle_ps::<0b11_01_11_01>(low, high);
+                let order = _mm256_setr_epi32(7, 5, 3, 1, 6, 4, 2, 0);
+                _mm256_permutevar8x32_ps(odd, order)
             }
         }
+    }
+
+    #[inline(always)]
+    fn load_reversed_f32(self, from: &[f32; 16], part: usize) -> __m256 {
+        // SAFETY: `self` says that AVX2 is there, and the array has sixteen elements.
+        unsafe { reversed(_mm256_loadu_ps(from.as_ptr()), _mm256_loadu_ps(from.as_ptr().add(8)), part) }
+    }
+
+    #[inline(always)]
+    fn load_reversed_u32(self, from: &[u32; 16], part: usize) -> __m256i {
+        // SAFETY: `self` says that AVX2 is there, and the array has sixteen elements.
+        unsafe {
+            let first = from.as_ptr().cast::<f32>();
+            _mm256_castps_si256(reversed(_mm256_loadu_ps(first), _mm256_loadu_ps(first.add(8)), part))
+        }
+    }
+
+    #[inline(always)]
+    fn columns(self, rows: &[Sixteen; 16], quarter: usize, part: usize) -> [[__m256; 4]; 2] {
+        let column = 4 * (quarter & 3);
+        let (rows, rows_after) = rows.split_at(8);
+        let rows = if part == 0 { rows } else { rows_after };
+        // SAFETY: `self` says that AVX2 is there; a block has 16 real and 16 imaginary parts, `column` is at most 12.
+        unsafe { [fours(rows, column), fours(rows, 16 + column)] }
     }
 
     #[inline(always)]
@@ -468,6 +475,50 @@ impl Lanes for Avx2 {
             // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(elements.as_ptr().cast::<i8>().add(offset)) }
         }
+    }
+}
+
+/// Sixteen numbers in two registers to the order of reversed bits, the first half of it or the second.
+///
+/// # Safety
+/// The processor must have AVX2.
+#[inline(always)]
+unsafe fn reversed(low: __m256, high: __m256, part: usize) -> __m256 {
+    // SAFETY: the caller's.
+    unsafe {
+        // 0 2 8 10 4 6 12 14, or 1 3 9 11 5 7 13 15.
+        let mixed = if part == 0 {
+            _mm256_shuffle_ps::<0b10_00_10_00>(low, high)
+        } else {
+            _mm256_shuffle_ps::<0b11_01_11_01>(low, high)
+        };
+        _mm256_permutevar8x32_ps(mixed, _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7))
+    }
+}
+
+/// Numbers `first` … `first` + 3 of two blocks.
+///
+/// # Safety
+/// The processor must have AVX2, and `first` is at most 28.
+#[inline(always)]
+unsafe fn halves(row: &Sixteen, after: &Sixteen, first: usize) -> __m256 {
+    // SAFETY: the caller's; a block has 32 numbers.
+    unsafe {
+        let value = _mm256_castps128_ps256(_mm_loadu_ps(row.0.as_ptr().add(first)));
+        _mm256_insertf128_ps::<1>(value, _mm_loadu_ps(after.0.as_ptr().add(first)))
+    }
+}
+
+/// Numbers `first` … `first` + 3 of eight blocks, transposed.
+///
+/// # Safety
+/// The processor must have AVX2, and `first` is at most 28.
+#[inline(always)]
+unsafe fn fours(rows: &[Sixteen], first: usize) -> [__m256; 4] {
+    // SAFETY: the caller's.
+    unsafe {
+        let [a, b, c, d, e, f, g, h] = rows else { return [_mm256_setzero_ps(); 4] };
+        transposed([halves(a, e, first), halves(b, f, first), halves(c, g, first), halves(d, h, first)])
     }
 }
 

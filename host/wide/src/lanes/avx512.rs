@@ -355,37 +355,31 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
-        // SAFETY: `self` says that AVX-512 is there; a block has two registers of sixteen numbers.
+    fn mirrored_reversed(self, first: &[f32; 16], rest: &[f32; 16], _part: usize) -> __m512 {
+        // SAFETY: `self` says that AVX-512 is there, and the arrays have sixteen elements; they need not be aligned.
         unsafe {
-            for half in [0, 16] {
-                // Four lanes of four rows each in a register, so that lanes of 128 bits need not be crossed after this.
-                let quarters = |row: usize, column: usize| {
-                    let four = |row: usize| _mm_loadu_ps(from[row].0.as_ptr().add(half + column));
-                    let value = _mm512_castps128_ps512(four(row));
-                    let value = _mm512_insertf32x4::<1>(value, four(row + 4));
-                    let value = _mm512_insertf32x4::<2>(value, four(row + 8));
-                    _mm512_insertf32x4::<3>(value, four(row + 12))
-                };
-                for column in [0, 4, 8, 12] {
-                    let rows =
-                        [quarters(0, column), quarters(1, column), quarters(2, column), quarters(3, column)];
-                    let low = _mm512_unpacklo_ps(rows[0], rows[1]);
-                    let high = _mm512_unpackhi_ps(rows[0], rows[1]);
-                    let low_after = _mm512_unpacklo_ps(rows[2], rows[3]);
-                    let high_after = _mm512_unpackhi_ps(rows[2], rows[3]);
-                    let columns = [
-                        _mm512_shuffle_ps::<0b01_00_01_00>(low, low_after),
-                        _mm512_shuffle_ps::<0b11_10_11_10>(low, low_after),
-                        _mm512_shuffle_ps::<0b01_00_01_00>(high, high_after),
-                        _mm512_shuffle_ps::<0b11_10_11_10>(high, high_after),
-                    ];
-                    for (place, value) in columns.into_iter().enumerate() {
-                        _mm512_storeu_ps(to[column + place].0.as_mut_ptr().add(half), value);
-                    }
-                }
-            }
+            let order = _mm512_setr_epi32(0, 24, 28, 20, 30, 22, 26, 18, 31, 23, 27, 19, 29, 21, 25, 17);
+            _mm512_permutex2var_ps(_mm512_loadu_ps(first.as_ptr()), order, _mm512_loadu_ps(rest.as_ptr()))
         }
+    }
+
+    #[inline(always)]
+    fn load_reversed_f32(self, from: &[f32; 16], _part: usize) -> __m512 {
+        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
+        unsafe { _mm512_permutexvar_ps(reversed(), _mm512_loadu_ps(from.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn load_reversed_u32(self, from: &[u32; 16], _part: usize) -> __m512i {
+        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
+        unsafe { _mm512_permutexvar_epi32(reversed(), _mm512_loadu_si512(from.as_ptr().cast())) }
+    }
+
+    #[inline(always)]
+    fn columns(self, rows: &[Sixteen; 16], quarter: usize, _part: usize) -> [[__m512; 4]; 2] {
+        let column = 4 * (quarter & 3);
+        // SAFETY: `self` says that AVX-512 is there; a block has 16 real and 16 imaginary parts, and `column` is at most 12.
+        unsafe { [fours(rows, column), fours(rows, 16 + column)] }
     }
 
     #[inline(always)]
@@ -445,6 +439,51 @@ impl Lanes for Avx512 {
             // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(elements.as_ptr().cast::<i8>().add(offset)) }
         }
+    }
+}
+
+/// The numbers below 16 with their bits reversed.
+///
+/// # Safety
+/// The processor must have AVX-512.
+#[inline(always)]
+unsafe fn reversed() -> __m512i {
+    // SAFETY: the caller's.
+    unsafe { _mm512_setr_epi32(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15) }
+}
+
+/// Numbers `first` … `first` + 3 of sixteen blocks, transposed.
+///
+/// # Safety
+/// The processor must have AVX-512, and `first` is at most 28.
+#[inline(always)]
+unsafe fn fours(rows: &[Sixteen; 16], first: usize) -> [__m512; 4] {
+    // Rows four apart lie in a register, so that only quarters of registers are to be transposed.
+    // SAFETY: the caller's; a block has 32 numbers.
+    unsafe {
+        let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] =
+            rows.each_ref().map(|row| row.0.as_ptr().add(first));
+        transposed([
+            quarters([a, e, i, m]),
+            quarters([b, f, j, n]),
+            quarters([c, g, k, o]),
+            quarters([d, h, l, p]),
+        ])
+    }
+}
+
+/// Four numbers from each of four places on, a quarter of the register each.
+///
+/// # Safety
+/// The processor must have AVX-512, and there are as many numbers.
+#[inline(always)]
+unsafe fn quarters([a, b, c, d]: [*const f32; 4]) -> __m512 {
+    // SAFETY: the caller's.
+    unsafe {
+        let value = _mm512_castps128_ps512(_mm_loadu_ps(a));
+        let value = _mm512_insertf32x4::<1>(value, _mm_loadu_ps(b));
+        let value = _mm512_insertf32x4::<2>(value, _mm_loadu_ps(c));
+        _mm512_insertf32x4::<3>(value, _mm_loadu_ps(d))
     }
 }
 

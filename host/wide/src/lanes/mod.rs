@@ -57,6 +57,9 @@ pub use views::{
     parts_of_complex,
 };
 
+/// The numbers below 16 with their four bits reversed.
+const REVERSED: [usize; 16] = [0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15];
+
 /// The largest [`Lanes::WIDTH`].
 pub const LARGEST_WIDTH: usize = 16;
 
@@ -352,16 +355,58 @@ pub trait Lanes: Copy + Send + Sync + 'static {
         self.load_f32(&array)
     }
 
-    /// Transposes two squares of 16 × 16 numbers, the real and the imaginary parts: lane l of block r of the one is
-    /// lane r of block l of the other.
+    /// As [`mirrored`](Self::mirrored), the lanes of sixteen in bit-reversed order.
     #[inline(always)]
-    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
-        for (row, to) in to.iter_mut().enumerate() {
-            for (column, from) in from.iter().enumerate() {
-                to.0[column] = from.0[row];
-                to.0[column + 16] = from.0[row + 16];
+    fn mirrored_reversed(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> Self::F32 {
+        let mut array = [0.0; LARGEST_WIDTH];
+        for (value, lane) in array.iter_mut().zip(REVERSED.into_iter().skip(part)).take(Self::WIDTH) {
+            *value = if lane == 0 { first[0] } else { rest[16 - lane] };
+        }
+        self.load_f32(&array)
+    }
+
+    /// Lanes `part` … `part` + width − 1 of sixteen in bit-reversed order: elements 0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13,
+    /// 3, 11, 7, 15.
+    ///
+    /// `part` is a multiple of the width below 16.
+    #[inline(always)]
+    fn load_reversed_f32(self, from: &[f32; 16], part: usize) -> Self::F32 {
+        let mut array = [0.0; LARGEST_WIDTH];
+        for (value, lane) in array.iter_mut().zip(REVERSED.into_iter().skip(part)).take(Self::WIDTH) {
+            *value = from[lane];
+        }
+        self.load_f32(&array)
+    }
+
+    /// As [`load_reversed_f32`](Self::load_reversed_f32).
+    #[inline(always)]
+    fn load_reversed_u32(self, from: &[u32; 16], part: usize) -> Self::U32 {
+        let mut array = [0; LARGEST_WIDTH];
+        for (value, lane) in array.iter_mut().zip(REVERSED.into_iter().skip(part)).take(Self::WIDTH) {
+            *value = from[lane];
+        }
+        self.load_u32(&array)
+    }
+
+    /// Columns 4·`quarter` … 4·`quarter` + 3 of two squares of 16 × 16 numbers, the real and the imaginary parts, rows
+    /// `part` … `part` + width − 1.
+    ///
+    /// `quarter` is less than 4 and `part` a multiple of the width below 16.
+    #[inline(always)]
+    fn columns(self, rows: &[Sixteen; 16], quarter: usize, part: usize) -> [[Self::F32; 4]; 2] {
+        let mut columns = [[[0.0; LARGEST_WIDTH]; 4]; 2];
+        for (lane, row) in rows.iter().skip(part).take(Self::WIDTH).enumerate() {
+            for (half, columns) in columns.iter_mut().enumerate() {
+                for (place, column) in columns.iter_mut().enumerate() {
+                    column[lane] = row.0[16 * half + 4 * (quarter & 3) + place];
+                }
             }
         }
+        let [[a, b, c, d], [e, f, g, h]] = &columns;
+        [
+            [self.load_f32(a), self.load_f32(b), self.load_f32(c), self.load_f32(d)],
+            [self.load_f32(e), self.load_f32(f), self.load_f32(g), self.load_f32(h)],
+        ]
     }
 
     /// Runs a kernel as a function of its own, not as part of the one that calls it.

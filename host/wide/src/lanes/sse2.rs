@@ -351,32 +351,34 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    fn transpose(self, from: &[Sixteen; 16], to: &mut [Sixteen; 16]) {
-        // SAFETY: SSE2 is there; a block has 32 numbers, of which four from a multiple of four are read or written.
-        unsafe {
-            for row in [0, 4, 8, 12] {
-                for column in [0, 4, 8, 12] {
-                    for half in [0, 16] {
-                        let load = |row: usize| _mm_loadu_ps(from[row].0.as_ptr().add(half + column));
-                        let (first, second) = (load(row), load(row + 1));
-                        let (third, fourth) = (load(row + 2), load(row + 3));
-                        let low = _mm_unpacklo_ps(first, second);
-                        let high = _mm_unpackhi_ps(first, second);
-                        let low_after = _mm_unpacklo_ps(third, fourth);
-                        let high_after = _mm_unpackhi_ps(third, fourth);
-                        let columns = [
-                            _mm_movelh_ps(low, low_after),
-                            _mm_movehl_ps(low_after, low),
-                            _mm_movelh_ps(high, high_after),
-                            _mm_movehl_ps(high_after, high),
-                        ];
-                        for (place, value) in columns.into_iter().enumerate() {
-                            _mm_storeu_ps(to[column + place].0.as_mut_ptr().add(half + row), value);
-                        }
-                    }
-                }
-            }
-        }
+    fn mirrored_reversed(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> __m128 {
+        let lane = |index: usize| if index == 0 { first[0] } else { rest[16 - index] };
+        let [a, b, c, d] = reversed(part).map(lane);
+        // SAFETY: SSE2 is there.
+        unsafe { _mm_setr_ps(a, b, c, d) }
+    }
+
+    #[inline(always)]
+    fn load_reversed_f32(self, from: &[f32; 16], part: usize) -> __m128 {
+        let [a, b, c, d] = reversed(part).map(|index| from[index]);
+        // SAFETY: SSE2 is there.
+        unsafe { _mm_setr_ps(a, b, c, d) }
+    }
+
+    #[inline(always)]
+    fn load_reversed_u32(self, from: &[u32; 16], part: usize) -> __m128i {
+        let [a, b, c, d] = reversed(part).map(|index| from[index] as i32);
+        // SAFETY: SSE2 is there.
+        unsafe { _mm_setr_epi32(a, b, c, d) }
+    }
+
+    #[inline(always)]
+    fn columns(self, rows: &[Sixteen; 16], quarter: usize, part: usize) -> [[__m128; 4]; 2] {
+        let column = 4 * (quarter & 3);
+        let part = part & 12;
+        let rows = [&rows[part], &rows[part + 1], &rows[part + 2], &rows[part + 3]];
+        // SAFETY: SSE2 is there; a block has 16 real and 16 imaginary parts, and `column` is at most 12.
+        unsafe { [fours(rows, column), fours(rows, 16 + column)] }
     }
 
     #[inline(always)]
@@ -411,6 +413,33 @@ impl Lanes for Sse2 {
             // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(elements.as_ptr().cast::<i8>().add(offset)) }
         }
+    }
+}
+
+/// Four numbers below 16 from `part` on, with their bits reversed.
+#[inline(always)]
+fn reversed(part: usize) -> [usize; 4] {
+    let first = (part >> 3 & 1) | (part >> 1 & 2);
+    [first, first + 8, first + 4, first + 12]
+}
+
+/// Numbers `first` … `first` + 3 of four blocks, transposed.
+///
+/// # Safety
+/// `first` is at most 28.
+#[inline(always)]
+unsafe fn fours(rows: [&Sixteen; 4], first: usize) -> [__m128; 4] {
+    // SAFETY: SSE2 is part of x86-64; a block has 32 numbers.
+    unsafe {
+        let [a, b, c, d] = rows.map(|row| _mm_loadu_ps(row.0.as_ptr().add(first)));
+        let (low, low_after) = (_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
+        let (high, high_after) = (_mm_unpackhi_ps(a, b), _mm_unpackhi_ps(c, d));
+        [
+            _mm_movelh_ps(low, low_after),
+            _mm_movehl_ps(low_after, low),
+            _mm_movelh_ps(high, high_after),
+            _mm_movehl_ps(high_after, high),
+        ]
     }
 }
 

@@ -86,6 +86,7 @@ impl Kernel for Work<'_> {
         let masses = left_nodes.chunks_exact(side).zip(right_nodes.chunks_exact(side));
         let ends = nyquist.iter_mut().zip(nyquist_after);
         for (x, ((left, right), (end, end_after))) in masses.zip(ends).enumerate() {
+            let (left, right) = (left.as_chunks().0, right.as_chunks().0);
             along.begin(lanes, scratch, &Masses { left, right, signed });
             let next = x + 1;
             let place = next / GROUP * GROUP * pitch + next % GROUP;
@@ -108,17 +109,16 @@ impl Kernel for Work<'_> {
 
 /// Two columns of node masses as a complex line.
 struct Masses<'a> {
-    left: &'a [u32],
-    right: &'a [u32],
+    left: &'a [[u32; 16]],
+    right: &'a [[u32; 16]],
     signed: bool,
 }
 
 impl Source for Masses<'_> {
     #[inline(always)]
     fn load<L: Lanes>(&self, lanes: L, index: usize, _upper: bool, part: usize) -> Complex<L> {
-        let first = 16 * index + part;
-        let left = lanes.load_u32(&self.left[first..first + L::WIDTH]);
-        let right = lanes.load_u32(&self.right[first..first + L::WIDTH]);
+        let left = lanes.load_reversed_u32(&self.left[index], part);
+        let right = lanes.load_reversed_u32(&self.right[index], part);
         if self.signed {
             Complex { re: lanes.of_i32(left), im: lanes.of_i32(right) }
         } else {

@@ -2,7 +2,7 @@
 
 use super::GROUP;
 use crate::lanes::{Kernel, Lanes, Level, Sixteen};
-use crate::transform::{Along, Complex, LineSink, Source, load, prefetch};
+use crate::transform::{Along, Complex, LineSink, Source, load_reversed, prefetch};
 use meniscus_core::grid::Grid;
 use rayon::prelude::*;
 
@@ -74,11 +74,11 @@ impl Source for Halves<'_> {
             let mirror = &self.group[(self.half + ((2 * self.half - index) & (self.half - 1))) * GROUP];
             let mirrors = &self.group[(3 * self.half - index - 1) * GROUP];
             Complex {
-                re: lanes.mirrored(mirror.re(), mirrors.re(), part),
-                im: lanes.mirrored(mirror.im(), mirrors.im(), part),
+                re: lanes.mirrored_reversed(mirror.re(), mirrors.re(), part),
+                im: lanes.mirrored_reversed(mirror.im(), mirrors.im(), part),
             }
         } else {
-            load(lanes, &self.group[index * GROUP], part)
+            load_reversed(lanes, &self.group[index * GROUP], part)
         }
     }
 }

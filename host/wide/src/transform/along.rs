@@ -3,10 +3,10 @@
 //! Lane r first has the elements 16j + r, of which each lane is transformed by itself. Squares of 16 × 16 are then
 //! transposed, so that lanes are consecutive frequencies, and four more stages join the sixteen parts.
 
-use super::butterflies::{Complex, Stages};
+use super::butterflies::{Complex, Factors, Stages};
 use super::factors::{self, SideBySide, SideBySideFromZero};
-use super::passes::{FromSlice, Numbers, Plan, Source};
-use crate::lanes::{Kernel, Lanes, Sixteen};
+use super::passes::{Numbers, Plan, Source, store};
+use crate::lanes::{Comb, Kernel, Lanes, Sixteen, combs};
 use meniscus_core::grid::Grid;
 
 /// Where the frequencies go.
@@ -38,7 +38,7 @@ impl Along {
         self.plan.points()
     }
 
-    /// The first pass: from element 16j + r of a line, lane r of block j of `source`, to `scratch`.
+    /// The first pass: element 16j + r of a line is in the lane of block j of `source` that has r's bits reversed.
     #[inline(always)]
     pub(crate) fn begin<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], source: &impl Source) {
         self.plan.begin(lanes, scratch, source);
@@ -64,59 +64,104 @@ impl<K: LineSink> Kernel for JoinParts<'_, K> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let groups = self.factors.len();
-        let (squares, _) = self.scratch.as_chunks::<16>();
-        let mut squares = squares.iter().zip(self.factors);
+        let Self { scratch, factors, sink } = self;
+        let groups = factors.len();
+        let (squares, _) = scratch.as_chunks::<16>();
         let mut square = [Sixteen::ZERO; 16];
-        if let Some((from, factors)) = squares.next() {
-            lanes.transpose(from, &mut square);
+        for (group, (rows, factors)) in squares.iter().zip(factors).enumerate() {
             for part in (0..16).step_by(L::WIDTH) {
                 let factors = SideBySide { factors, part };
-                let lane = if part == 0 { 0 } else { u32::MAX };
-                let zero = lanes.equal(lanes.load_u32(&LANES), lanes.splat_u32(lane));
-                let x = <[Complex<L>; 16]>::from_source(lanes, &FromSlice(&square), 0, 1, part);
-                let x = x.joined(lanes, SideBySideFromZero { factors, zero });
-                put(lanes, x, 0, groups, part, self.sink);
-            }
-        }
-        for (group, (from, factors)) in squares.enumerate() {
-            lanes.transpose(from, &mut square);
-            for part in (0..16).step_by(L::WIDTH) {
-                let x = <[Complex<L>; 16]>::from_source(lanes, &FromSlice(&square), 0, 1, part);
-                let x = x.joined(lanes, SideBySide { factors, part });
-                put(lanes, x, group + 1, groups, part, self.sink);
+                let place = Place { first: group, groups, part };
+                if group == 0 {
+                    let lane = if part == 0 { 0 } else { u32::MAX };
+                    let zero = lanes.equal(lanes.load_u32(&LANES), lanes.splat_u32(lane));
+                    join(lanes, rows, SideBySideFromZero { factors, zero }, &mut square, place, sink);
+                } else {
+                    join(lanes, rows, factors, &mut square, place, sink);
+                }
             }
         }
     }
 }
 
-const LANES: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
-/// Part q of the frequencies begins at block q·M/256.
-#[inline(always)]
-fn put<L: Lanes>(
-    lanes: L,
-    x: [Complex<L>; 16],
-    group: usize,
+/// Where sixteen parts go: part q of the frequencies begins at block q·M/256.
+#[derive(Clone, Copy)]
+struct Place {
+    first: usize,
     groups: usize,
     part: usize,
+}
+
+/// The last four stages for frequencies `part` … of a square: two with the columns as they come, two more by way of memory.
+#[inline(always)]
+fn join<L: Lanes, F: Factors<L>>(
+    lanes: L,
+    rows: &[Sixteen; 16],
+    factors: F,
+    square: &mut [Sixteen; 16],
+    place: Place,
     sink: &mut impl LineSink,
 ) {
-    let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = x;
-    sink.store(lanes, group, part, a);
-    sink.store(lanes, group + groups, part, b);
-    sink.store(lanes, group + 2 * groups, part, c);
-    sink.store(lanes, group + 3 * groups, part, d);
-    sink.store(lanes, group + 4 * groups, part, e);
-    sink.store(lanes, group + 5 * groups, part, f);
-    sink.store(lanes, group + 6 * groups, part, g);
-    sink.store(lanes, group + 7 * groups, part, h);
-    sink.store(lanes, group + 8 * groups, part, i);
-    sink.store(lanes, group + 9 * groups, part, j);
-    sink.store(lanes, group + 10 * groups, part, k);
-    sink.store(lanes, group + 11 * groups, part, l);
-    sink.store(lanes, group + 12 * groups, part, m);
-    sink.store(lanes, group + 13 * groups, part, n);
-    sink.store(lanes, group + 14 * groups, part, o);
-    sink.store(lanes, group + 15 * groups, part, p);
+    let part = place.part;
+    for (quarter, places) in square.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let [[a, b, c, d], [e, f, g, h]] = lanes.columns(rows, quarter, part);
+        let x: [Complex<L>; 4] = [
+            Complex { re: a, im: e },
+            Complex { re: b, im: f },
+            Complex { re: c, im: g },
+            Complex { re: d, im: h },
+        ];
+        let [a, b, c, d] = x.joined(lanes, factors);
+        let [first, second, third, fourth] = places;
+        store(lanes, a, first, part);
+        store(lanes, b, second, part);
+        store(lanes, c, third, part);
+        store(lanes, d, fourth, part);
+    }
+    let mut combs = combs::<4>(square);
+    later::<L, F, 0>(lanes, combs.next(), factors, place, sink);
+    later::<L, F, 1>(lanes, combs.next(), factors, place, sink);
+    later::<L, F, 2>(lanes, combs.next(), factors, place, sink);
+    later::<L, F, 3>(lanes, combs.next(), factors, place, sink);
 }
+
+/// The third and fourth stage of places `NUMBER`, `NUMBER` + 4, + 8 and + 12.
+#[inline(always)]
+fn later<L: Lanes, F: Factors<L>, const NUMBER: usize>(
+    lanes: L,
+    comb: Option<Comb<'_, 4>>,
+    factors: F,
+    place: Place,
+    sink: &mut impl LineSink,
+) {
+    let Some(comb) = comb else { return };
+    let Place { first, groups, part } = place;
+    let x = <[Complex<L>; 4]>::from_comb(lanes, &comb, part);
+    let [a, b, c, d] = x.joined(lanes, Later::<F, NUMBER>(factors));
+    sink.store(lanes, first + NUMBER * groups, part, a);
+    sink.store(lanes, first + (NUMBER + 4) * groups, part, b);
+    sink.store(lanes, first + (NUMBER + 8) * groups, part, c);
+    sink.store(lanes, first + (NUMBER + 12) * groups, part, d);
+}
+
+/// Factors of the third and fourth stage as those of a first and second.
+#[derive(Clone, Copy)]
+struct Later<F, const NUMBER: usize>(F);
+
+impl<L: Lanes, F: Factors<L>, const NUMBER: usize> Factors<L> for Later<F, NUMBER> {
+    #[inline(always)]
+    fn times(self, lanes: L, index: usize, x: Complex<L>) -> Complex<L> {
+        match (index, NUMBER) {
+            (0, 0 | 1) => self.0.times(lanes, 2 + NUMBER, x),
+            (0, _) => self.0.times_turned(lanes, NUMBER, x),
+            _ => self.0.times(lanes, 4 + NUMBER, x),
+        }
+    }
+
+    #[inline(always)]
+    fn times_turned(self, lanes: L, _index: usize, x: Complex<L>) -> Complex<L> {
+        self.0.times_turned(lanes, 4 + NUMBER, x)
+    }
+}
+
+const LANES: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];

@@ -24,7 +24,7 @@ mod passes;
 pub(crate) use along::{Along, LineSink};
 pub(crate) use butterflies::Complex;
 pub(crate) use factors::turns;
-pub(crate) use passes::{FromSlice, InPlace, Plan, Sink, Source, load, prefetch, store};
+pub(crate) use passes::{FromSlice, InPlace, Plan, Sink, Source, load, load_reversed, prefetch, store};
 
 use crate::lanes::{Kernel, Lanes, Level, Sixteen};
 use meniscus_core::grid::Grid;
@@ -95,8 +95,18 @@ impl Kernel for OneLine<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        self.along.begin(lanes, self.scratch, &FromSlice(self.line));
+        self.along.begin(lanes, self.scratch, &Reversed(self.line));
         self.along.finish(lanes, &mut self.scratch[..self.along.blocks()], &mut ToSlice(self.line));
+    }
+}
+
+/// Blocks of a slice with their lanes in bit-reversed order.
+struct Reversed<'a>(&'a [Sixteen]);
+
+impl Source for Reversed<'_> {
+    #[inline(always)]
+    fn load<L: Lanes>(&self, lanes: L, index: usize, _upper: bool, part: usize) -> Complex<L> {
+        load_reversed(lanes, &self.0[index], part)
     }
 }
 

@@ -13,6 +13,12 @@ pub(crate) fn load<L: Lanes>(lanes: L, block: &Sixteen, part: usize) -> Complex<
     Complex { re: lanes.load_f32(&re[part..]), im: lanes.load_f32(&im[part..]) }
 }
 
+/// Lanes `part` … `part` + width − 1 of a block in bit-reversed order.
+#[inline(always)]
+pub(crate) fn load_reversed<L: Lanes>(lanes: L, block: &Sixteen, part: usize) -> Complex<L> {
+    Complex { re: lanes.load_reversed_f32(block.re(), part), im: lanes.load_reversed_f32(block.im(), part) }
+}
+
 /// Writes lanes `part` … `part` + width − 1 of a block.
 #[inline(always)]
 pub(crate) fn store<L: Lanes>(lanes: L, value: Complex<L>, block: &mut Sixteen, part: usize) {
