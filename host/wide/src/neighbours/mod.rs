@@ -4,7 +4,9 @@
 //! pair within the cut-off is in it (Verlet, 1967). Which pairs are looked at beyond those, and how long a list is
 //! kept, has no bearing on forces: those of pairs beyond the cut-off are not added, and sums are of integers.
 //!
-//! The skin is chosen anew for every list, from how long the last one lasted.
+//! The skin is chosen anew for every list, from how long the last one lasted. Of each pair of discs one has the other in
+//! its list, which takes less time than to have both look at each other; in several pieces, each of the two if they
+//! belong to different ones, so that a piece adds forces to its own discs only.
 //!
 //! ```
 //! use meniscus_wide::lanes::Level;

@@ -82,7 +82,7 @@ impl PairLoop {
         }
         let pieces = neighbours.pieces();
         let size = piece_size(positions.len(), pieces.len());
-        let add = |(number, ((force_x, force_y), piece)): (usize, ((&mut [i64], &mut [i64]), &Piece))| {
+        let add = |(number, ((force_x, force_y), piece)): Piecewise<'_>| {
             let first = (number * size) as u32;
             self.level.dispatch(Add { pairs: self, positions, discs, piece, first, force_x, force_y });
         };
@@ -95,6 +95,9 @@ impl PairLoop {
         }
     }
 }
+
+/// The number of a piece, where the forces of its discs go, and its lists.
+type Piecewise<'a> = (usize, ((&'a mut [i64], &'a mut [i64]), &'a Piece));
 
 /// The pairs of one piece.
 struct Add<'a> {
