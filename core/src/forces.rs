@@ -194,11 +194,9 @@ impl Forces {
             return Err(ForceError::Memory);
         }
         let discs = &mut memory.discs(count);
+        self.check_crowding(discs).map_err(|Crowded| ForceError::Crowded)?;
         stages.arrange(self, discs);
-        let is_fresh = self
-            .check_crowding(discs)
-            .and_then(|()| self.mesh(stages, is_held, discs))
-            .map_err(|Crowded| ForceError::Crowded)?;
+        let is_fresh = self.mesh(stages, is_held, discs).map_err(|Crowded| ForceError::Crowded)?;
         if self.pairs.reach() > 0 {
             stages.add_pairs(self, discs);
         }

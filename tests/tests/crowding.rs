@@ -20,7 +20,7 @@ fn started(parameters: &Parameters, discs: &[Position]) -> (Dynamics, Arrays) {
     (dynamics, arrays)
 }
 
-/// Discs that only repel each other, one cell for each node.
+/// Discs that only repel each other; a cell is 16 R0 wide.
 const REPELLING: Parameters =
     Parameters { side: 4096.0, grid: 1024, capillary_strength: 0.0, ..Parameters::PAPER };
 
@@ -56,20 +56,20 @@ fn as_many_discs_side_by_side_are_not_refused() {
 #[test]
 fn a_cell_holds_two_to_the_15_discs_and_not_one_more() {
     let crowding = Crowding::new(PairForce::repulsion(REPELLING.side).reach(), Grid::new(1024).unwrap());
-    let mut counts = vec![u32::MAX; 1024 * 1024];
+    let mut counts = vec![u32::MAX; MOST_CELLS * MOST_CELLS + 3];
     // Two corners of one cell, in turns.
-    let corners = [(1 << 22, 2 << 22), ((2 << 22) - 1, (3 << 22) - 1)];
+    let corners = [(1 << 24, 2 << 24), ((2 << 24) - 1, (3 << 24) - 1)];
     let heap = |count: u32| -> (Vec<Fraction>, Vec<Fraction>) {
         let places = (0..count).map(|index| corners[index as usize % 2]);
         places.map(|(x, y)| (Fraction::from_bits(x), Fraction::from_bits(y))).unzip()
     };
     let (mut x, mut y) = heap(LARGEST_CELL);
     // Its neighbours are others.
-    x.extend([Fraction::from_bits(2 << 22), Fraction::from_bits((1 << 22) - 1)]);
-    y.extend([Fraction::from_bits(2 << 22), Fraction::from_bits(2 << 22)]);
+    x.extend([Fraction::from_bits(2 << 24), Fraction::from_bits((1 << 24) - 1)]);
+    y.extend([Fraction::from_bits(2 << 24), Fraction::from_bits(2 << 24)]);
     assert_eq!(crowding.count((&x, &y), &mut counts), Ok(()));
-    assert_eq!(counts[2 * 1024 + 1], LARGEST_CELL);
-    assert_eq!(counts.iter().sum::<u32>(), LARGEST_CELL + 2);
+    assert_eq!(counts[MOST_CELLS + 2], LARGEST_CELL);
+    assert_eq!(counts.iter().take(MOST_CELLS * MOST_CELLS).sum::<u32>(), LARGEST_CELL + 2);
     let (x, y) = heap(LARGEST_CELL + 1);
     assert_eq!(crowding.count((&x, &y), &mut counts), Err(Crowded));
 }
