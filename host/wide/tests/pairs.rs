@@ -15,6 +15,11 @@ const SIDE: f64 = 500.0;
 /// R0 in units of position, at side 500 R0.
 const R0: u32 = (4_294_967_296.0 / SIDE) as u32;
 
+/// Whether to look at everything: lanes that are not inlined take a hundred times longer.
+fn is_thorough() -> bool {
+    !cfg!(debug_assertions) || std::env::var_os("MENISCUS_LONG_TESTS").is_some()
+}
+
 /// Numbers without a pattern.
 struct Numbers(StepKey, u64);
 
@@ -126,12 +131,16 @@ impl Case {
         (force_x, force_y)
     }
 
-    /// Compares at every level, in several numbers of pieces, few discs also without a skin.
+    /// Compares at every level, in several numbers of pieces, with and without a skin; without optimisation, at some.
     fn check(&self, state: &State, name: &str) {
         let expected = self.expected(state);
-        let skins: &[u32] = if state.0.len() > 250 { &[R0] } else { &[0, R0] };
+        let (pieces, skins): (&[_], &[_]) = match state.0.len() {
+            _ if is_thorough() => (&[1, 2, 3, 4, 7, 16], &[0, R0]),
+            0..100 => (&[1, 2, 16], &[R0]),
+            _ => (&[1, 3], &[R0]),
+        };
         for level in Level::available() {
-            for pieces in [1, 2, 3, 4, 7, 16] {
+            for &pieces in pieces {
                 for &skin in skins {
                     let mut neighbours = Neighbours::new(level, self.force.reach()).with_skin(skin);
                     neighbours.rebuild(&state.0, &state.1, pieces);
@@ -160,7 +169,7 @@ fn arranged(mut state: State, reach: u32) -> State {
 
 #[test]
 fn random_discs_of_any_number() {
-    for count in [1, 2, 3, 17, 250, 2500] {
+    for count in [1, 2, 3, 17, 250, if is_thorough() { 2500 } else { 700 }] {
         let case = Case::new(&split(SIDE, 7.34, true), count);
         case.check(&random(count, 1), &format!("{count} random discs"));
         case.check(
@@ -173,13 +182,17 @@ fn random_discs_of_any_number() {
 #[test]
 fn clusters_across_the_seams() {
     for (count, width) in [(2, R0), (3, R0), (17, 4 * R0), (250, 20 * R0), (1000, 60 * R0)] {
+        if count > 250 && !is_thorough() {
+            continue;
+        }
         let case = Case::new(&split(SIDE, 7.34, true), count);
         // Overlaps of all depths: forces far beyond 2³¹ units, and of those that no longer grow.
         case.check(&clustered(count, width, 2), &format!("{count} discs within {width}"));
     }
-    let lattice = hexagonal(600);
+    let count = if is_thorough() { 1000 } else { 200 };
+    let lattice = hexagonal(count);
     for cutoff in [7.34, 20.0, 40.0] {
-        let case = Case::new(&split(SIDE, cutoff, true), 600);
+        let case = Case::new(&split(SIDE, cutoff, true), count);
         case.check(&lattice, &format!("a lattice, cut-off {cutoff}"));
         case.check(&arranged(lattice.clone(), case.force.reach()), "a lattice in order");
     }
@@ -266,6 +279,9 @@ fn lists_are_of_use_until_a_disc_has_moved_by_half_the_skin() {
     const SKIN: u32 = 2 * 5_000_000;
     for level in Level::available() {
         for (count, pieces) in [(17, 1), (250, 1), (250, 3), (1000, 4)] {
+            if count > 250 && !is_thorough() {
+                continue;
+            }
             let case = Case::new(&split(SIDE, 7.34, true), count);
             let state = arranged(clustered(count, 60 * R0, 8), case.force.reach());
             let mut numbers = Numbers::new(10);
@@ -332,7 +348,7 @@ fn two_discs_that_meet_as_fast_as_they_may_are_seen() {
 
 #[test]
 fn a_run_has_the_same_forces_whatever_the_skin() {
-    let count = 500;
+    let count = if is_thorough() { 500 } else { 150 };
     let case = Case::new(&split(SIDE, 7.34, true), count);
     for (level, pieces) in Level::available().zip([1, 2, 3, 1, 2]) {
         let mut state = arranged(clustered(count, 90 * R0, 11), case.force.reach());
