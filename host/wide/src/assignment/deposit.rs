@@ -11,24 +11,26 @@ const ROW: usize = 8;
 
 /// Spreads the shares of discs over the columns of the mesh that it owns; gives the largest sum on one of their nodes if
 /// the shares are counted.
-pub(super) struct Deposit<'a, S, const P: usize> {
+pub(super) struct Deposit<'a, const P: usize, const PAIRS: usize> {
     pub level: Level,
     pub grid: Grid,
     /// Bits of the coordinates of all discs.
     pub x: &'a [u32],
     pub y: &'a [u32],
-    pub shares: S,
+    pub shares: Shares<'a>,
+    /// Whether what a node holds could overflow: then additions saturate, and the largest sum is looked for.
+    pub counted: bool,
     /// The first column owned, and the nodes of all that are.
     pub first_column: usize,
     pub nodes: &'a mut [u32],
 }
 
-impl<S: Shares, const P: usize> Divisible for Deposit<'_, S, P> {
+impl<const P: usize, const PAIRS: usize> Divisible for Deposit<'_, P, PAIRS> {
     type Output = u32;
 
     fn divide(self, first: usize, pieces: usize) -> (Self, Self) {
         // Where the discs of these columns are divided evenly if they are sorted by x. If they are not, it is somewhere.
-        let Self { level, grid, x, y, shares, first_column, nodes } = self;
+        let Self { level, grid, x, y, shares, counted, first_column, nodes } = self;
         let column = |x: u32| (x >> (32 - grid.exponent())) as usize;
         let end_column = first_column + nodes.len() / grid.nodes();
         let begin = x.partition_point(|&x| column(x) < first_column);
@@ -37,8 +39,8 @@ impl<S: Shares, const P: usize> Divisible for Deposit<'_, S, P> {
         let at = divider.clamp(first_column, end_column) - first_column;
         let (before, after) = nodes.split_at_mut(at * grid.nodes());
         (
-            Self { level, grid, x, y, shares, first_column, nodes: before },
-            Self { level, grid, x, y, shares, first_column: first_column + at, nodes: after },
+            Self { level, grid, x, y, shares, counted, first_column, nodes: before },
+            Self { level, grid, x, y, shares, counted, first_column: first_column + at, nodes: after },
         )
     }
 
@@ -51,12 +53,12 @@ impl<S: Shares, const P: usize> Divisible for Deposit<'_, S, P> {
     }
 }
 
-impl<S: Shares, const P: usize> Kernel for Deposit<'_, S, P> {
+impl<const P: usize, const PAIRS: usize> Kernel for Deposit<'_, P, PAIRS> {
     type Output = u32;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> u32 {
-        let Self { grid, x, y, shares, first_column, nodes, .. } = self;
+        let Self { grid, x, y, shares, counted, first_column, nodes, .. } = self;
         if nodes.is_empty() {
             return 0;
         }
@@ -82,8 +84,15 @@ impl<S: Shares, const P: usize> Kernel for Deposit<'_, S, P> {
             let first_x = lanes.array_u32(stencil.first.0);
             let first_y = lanes.array_u32(stencil.first.1);
             for (disc, (&x, &y)) in first_x.iter().zip(&first_y).enumerate().take(count) {
-                for (row, weights) in rows.iter().enumerate() {
-                    mesh.add::<S, P>(x as usize + row, y as usize, &weights[disc]);
+                let (x, y) = (x as usize, y as usize);
+                if counted {
+                    for (row, shares) in rows.iter().enumerate() {
+                        mesh.add::<P, true>(x + row, y, &shares[disc]);
+                    }
+                } else {
+                    for (row, shares) in rows.iter().enumerate() {
+                        mesh.add::<P, false>(x + row, y, &shares[disc]);
+                    }
                 }
             }
         }
@@ -114,14 +123,14 @@ impl Columns<'_> {
 
     /// Adds a row of shares to the nodes from (`x`, `y`) on, if they are of these columns.
     #[inline(always)]
-    fn add<S: Shares, const P: usize>(&mut self, x: usize, y: usize, shares: &[u32; ROW]) {
+    fn add<const P: usize, const COUNTED: bool>(&mut self, x: usize, y: usize, shares: &[u32; ROW]) {
         let grid = self.grid;
         // Columns that are not there are as far away as can be.
         let line = grid.wrap(x).wrapping_sub(self.first).wrapping_mul(grid.nodes());
         if y <= grid.nodes() - ROW {
             let row = self.nodes.get_mut(line.wrapping_add(y)..).and_then(|nodes| nodes.first_chunk_mut());
             if let Some(row) = row {
-                *row = sums::<S>(row, shares, &mut self.largest);
+                *row = sums::<COUNTED>(row, shares, &mut self.largest);
             }
             return;
         }
@@ -129,7 +138,7 @@ impl Columns<'_> {
             if let Some(node) = self.nodes.get_mut(line.wrapping_add(grid.wrap(y + column))) {
                 let mut row = [0; ROW];
                 row[0] = *node;
-                [*node, ..] = sums::<S>(&row, &[share, 0, 0, 0, 0, 0, 0, 0], &mut self.largest);
+                [*node, ..] = sums::<COUNTED>(&row, &[share, 0, 0, 0, 0, 0, 0, 0], &mut self.largest);
             }
         }
     }
@@ -137,10 +146,14 @@ impl Columns<'_> {
 
 /// The sums of nodes and shares; if counted they saturate, and the largest of each column is kept.
 #[inline(always)]
-fn sums<S: Shares>(nodes: &[u32; ROW], shares: &[u32; ROW], largest: &mut [u32; ROW]) -> [u32; ROW] {
+fn sums<const COUNTED: bool>(
+    nodes: &[u32; ROW],
+    shares: &[u32; ROW],
+    largest: &mut [u32; ROW],
+) -> [u32; ROW] {
     let mut sums = *nodes;
     for ((sum, share), largest) in sums.iter_mut().zip(shares).zip(largest) {
-        if S::COUNTED {
+        if COUNTED {
             *sum = sum.saturating_add(*share);
             *largest = (*largest).max(*sum);
         } else {

@@ -12,21 +12,21 @@ use meniscus_core::units::{FORCE_UNITS, round_half_even};
 /// From weights of unit 2⁻²⁰ times kBT/R0 to units of 2⁻²⁴ kBT/R0.
 const QUANTA_PER_WEIGHT: f32 = FORCE_UNITS / DISC as f32;
 
-/// Gathers the force on discs.
-pub(super) struct Gather<'a, S, const P: usize> {
+/// Gathers the force on discs, the P nodes of a row as `PAIRS` pairs.
+pub(super) struct Gather<'a, const P: usize, const PAIRS: usize> {
     pub level: Level,
     pub grid: Grid,
     /// Bits of coordinates.
     pub x: &'a [u32],
     pub y: &'a [u32],
-    pub shares: S,
+    pub shares: Shares<'a>,
     pub field: Field<'a>,
     /// Bits of forces, unit 2⁻²⁴ kBT/R0.
     pub force_x: &'a mut [u64],
     pub force_y: &'a mut [u64],
 }
 
-impl<S: Shares, const P: usize> Divisible for Gather<'_, S, P> {
+impl<const P: usize, const PAIRS: usize> Divisible for Gather<'_, P, PAIRS> {
     type Output = ();
 
     fn divide(self, first: usize, pieces: usize) -> (Self, Self) {
@@ -49,7 +49,7 @@ impl<S: Shares, const P: usize> Divisible for Gather<'_, S, P> {
     fn unite((): (), (): ()) {}
 }
 
-impl<S: Shares, const P: usize> Kernel for Gather<'_, S, P> {
+impl<const P: usize, const PAIRS: usize> Kernel for Gather<'_, P, PAIRS> {
     type Output = ();
 
     #[inline(always)]
@@ -60,15 +60,10 @@ impl<S: Shares, const P: usize> Kernel for Gather<'_, S, P> {
         for (group, ((x, y), (force_x, force_y))) in positions.zip(forces).enumerate() {
             let mut stencil = Stencil::<L, P>::new(lanes, lanes.load_u32(x), lanes.load_u32(y), grid);
             shares.apply(lanes, group * L::WIDTH, &mut stencil);
-            let (mut sum_x, mut sum_y) = match P {
-                2 => sums::<L, P, 1>(lanes, grid, field, &stencil),
-                3 | 4 => sums::<L, P, 2>(lanes, grid, field, &stencil),
-                5 | 6 => sums::<L, P, 3>(lanes, grid, field, &stencil),
-                _ => sums::<L, P, 4>(lanes, grid, field, &stencil),
-            };
-            let seam = across_seam(lanes, grid, &stencil);
-            if lanes.bits(seam) != 0 {
-                (sum_x, sum_y) = corrected(lanes, grid, field, &stencil, (sum_x, sum_y));
+            let (mut sum_x, mut sum_y) = sums::<L, P, PAIRS>(lanes, grid, field, &stencil);
+            let seam = lanes.bits(across_seam::<L, PAIRS>(lanes, grid, stencil.first.1));
+            if seam != 0 {
+                (sum_x, sum_y) = corrected(lanes, grid, field, &stencil, seam, (sum_x, sum_y));
             }
             lanes.store_u64(quantised(lanes, sum_x), force_x);
             lanes.store_u64(quantised(lanes, sum_y), force_y);
@@ -76,10 +71,9 @@ impl<S: Shares, const P: usize> Kernel for Gather<'_, S, P> {
     }
 }
 
-/// The weighted sums of the field over each disc's nodes, from runs of `RUNS` pairs of nodes; of no use for discs
-/// across the seam of y.
+/// The weighted sums of the field over each disc's nodes, of no use for discs across the seam of y.
 #[inline(always)]
-fn sums<L: Lanes, const P: usize, const RUNS: usize>(
+fn sums<L: Lanes, const P: usize, const PAIRS: usize>(
     lanes: L,
     grid: Grid,
     field: Field<'_>,
@@ -93,7 +87,7 @@ fn sums<L: Lanes, const P: usize, const RUNS: usize>(
         let line =
             lanes.and(lanes.add_u32(stencil.first.0, lanes.splat_u32(row as u32)), last_node(lanes, grid));
         let begin = lanes.add_u32(lanes.mul_u32(line, pitch), column);
-        let runs = lanes.gather_runs::<RUNS>(table, begin);
+        let runs = lanes.gather_runs::<PAIRS>(table, begin);
         let (pairs, _) = runs.as_flattened().as_chunks::<2>();
         for (&[force_x, force_y], &weight) in pairs.iter().zip(weights) {
             let weight = lanes.of_i32(weight);
@@ -104,11 +98,11 @@ fn sums<L: Lanes, const P: usize, const RUNS: usize>(
     (sum_x, sum_y)
 }
 
-/// Discs whose runs would reach beyond the last column of y.
+/// Discs whose pairs would reach beyond the last column.
 #[inline(always)]
-fn across_seam<L: Lanes, const P: usize>(lanes: L, grid: Grid, stencil: &Stencil<L, P>) -> L::Mask {
-    let last = grid.nodes() - P.next_multiple_of(2);
-    lanes.less_i32(lanes.splat_u32(last as u32), stencil.first.1)
+fn across_seam<L: Lanes, const PAIRS: usize>(lanes: L, grid: Grid, first_y: L::U32) -> L::Mask {
+    let last = grid.nodes() - 2 * PAIRS;
+    lanes.less_i32(lanes.splat_u32(last as u32), first_y)
 }
 
 /// The sums, those of discs across the seam done one by one.
@@ -118,9 +112,9 @@ fn corrected<L: Lanes, const P: usize>(
     grid: Grid,
     field: Field<'_>,
     stencil: &Stencil<L, P>,
+    seam: u32,
     (sum_x, sum_y): (L::F32, L::F32),
 ) -> (L::F32, L::F32) {
-    let seam = lanes.bits(across_seam(lanes, grid, stencil));
     let mut weights = [[[0; LARGEST_WIDTH]; P]; P];
     for (place, &weight) in weights.as_flattened_mut().iter_mut().zip(stencil.weights.as_flattened()) {
         lanes.store_u32(weight, place);

@@ -36,7 +36,7 @@ use meniscus_core::grid::Grid;
 use meniscus_core::parameters::Assignment;
 use meniscus_core::torus::Fraction;
 use meniscus_core::transform::Complex32;
-use shares::{Equal, Moduli, Shares, Signed};
+use shares::Shares;
 
 /// How discs are assigned to a mesh, and by what means.
 #[derive(Clone, Copy, Debug)]
@@ -60,16 +60,16 @@ pub struct Field<'a> {
     pub pitch: usize,
 }
 
-/// Calls a function generic over the order P with the P of an assignment.
-macro_rules! by_order {
-    ($assignment:expr, $function:ident($($argument:expr),*)) => {
-        match $assignment {
-            Assignment::CloudInCell => $function::<_, 2>($($argument),*),
-            Assignment::TriangularShapedCloud => $function::<_, 3>($($argument),*),
-            Assignment::Order4 => $function::<_, 4>($($argument),*),
-            Assignment::Order5 => $function::<_, 5>($($argument),*),
-            Assignment::Order6 => $function::<_, 6>($($argument),*),
-            Assignment::Order7 => $function::<_, 7>($($argument),*),
+/// Does work generic over the order P, and over the number of pairs of nodes in P, with those of an assignment.
+macro_rules! in_pieces_by_order {
+    ($scheme:expr, $work:ident { $($field:ident),* }) => {
+        match $scheme.assignment {
+            Assignment::CloudInCell => in_pieces($work::<2, 1> { $($field),* }, $scheme.pieces),
+            Assignment::TriangularShapedCloud => in_pieces($work::<3, 2> { $($field),* }, $scheme.pieces),
+            Assignment::Order4 => in_pieces($work::<4, 2> { $($field),* }, $scheme.pieces),
+            Assignment::Order5 => in_pieces($work::<5, 3> { $($field),* }, $scheme.pieces),
+            Assignment::Order6 => in_pieces($work::<6, 3> { $($field),* }, $scheme.pieces),
+            Assignment::Order7 => in_pieces($work::<7, 4> { $($field),* }, $scheme.pieces),
         }
     };
 }
@@ -82,11 +82,8 @@ impl MeshAssignment {
     /// [`Crowded`] if a node holds more than [`LARGEST_NODE_MASS`] discs; `nodes` is then of no use.
     pub fn deposit(&self, positions: (&[Fraction], &[Fraction]), nodes: &mut [u32]) -> Result<(), Crowded> {
         // Fewer discs cannot crowd a node.
-        let largest = if positions.0.len() > LARGEST_NODE_MASS as usize {
-            self.spread(positions, Equal::<true>, nodes)
-        } else {
-            self.spread(positions, Equal::<false>, nodes)
-        };
+        let counted = positions.0.len() > LARGEST_NODE_MASS as usize;
+        let largest = self.spread(positions, Shares::Equal, counted, nodes);
         if largest > LARGEST_NODE_MASS * DISC { Err(Crowded) } else { Ok(()) }
     }
 
@@ -104,10 +101,11 @@ impl MeshAssignment {
         let limit = LARGEST_NODE_STRENGTH * DISC;
         let total: u64 = strengths.iter().map(|strength| u64::from(strength.unsigned_abs())).sum();
         // See the core: below that no sum can overflow.
-        if total > u64::from(limit) && self.spread(positions, Moduli(strengths), nodes) > limit {
+        if total > u64::from(limit) && self.spread(positions, Shares::Moduli(strengths), true, nodes) > limit
+        {
             return Err(Crowded);
         }
-        self.spread(positions, Signed(strengths), nodes);
+        self.spread(positions, Shares::Signed(strengths), false, nodes);
         Ok(())
     }
 
@@ -118,7 +116,7 @@ impl MeshAssignment {
         field: Field<'_>,
         forces: (&mut [i64], &mut [i64]),
     ) {
-        self.collect(positions, Equal::<false>, field, forces);
+        self.collect(positions, Shares::Equal, field, forces);
     }
 
     /// As [`meniscus_core::assignment::gather_strengths`]: for discs of the given capillary strengths (unit 2⁻²⁰).
@@ -129,46 +127,33 @@ impl MeshAssignment {
         field: Field<'_>,
         forces: (&mut [i64], &mut [i64]),
     ) {
-        self.collect(positions, Signed(strengths), field, forces);
+        self.collect(positions, Shares::Signed(strengths), field, forces);
     }
 
-    /// Spreads the shares; gives the largest sum on a node if the shares are counted.
-    fn spread<S: Shares>(&self, (x, y): (&[Fraction], &[Fraction]), shares: S, nodes: &mut [u32]) -> u32 {
-        let positions = (bits_of_fractions(x), bits_of_fractions(y));
-        by_order!(self.assignment, spread_in_order(self, positions, shares, nodes))
-    }
-
-    /// Collects with the shares.
-    fn collect<S: Shares>(
+    /// Spreads the shares over the nodes; gives the largest sum on a node if they are counted, else 0.
+    fn spread(
         &self,
         (x, y): (&[Fraction], &[Fraction]),
-        shares: S,
+        shares: Shares<'_>,
+        counted: bool,
+        nodes: &mut [u32],
+    ) -> u32 {
+        let (x, y) = (bits_of_fractions(x), bits_of_fractions(y));
+        let (level, grid, first_column) = (self.level, self.grid, 0);
+        in_pieces_by_order!(self, Deposit { level, grid, x, y, shares, counted, first_column, nodes })
+    }
+
+    /// Collects from the field with the shares.
+    fn collect(
+        &self,
+        (x, y): (&[Fraction], &[Fraction]),
+        shares: Shares<'_>,
         field: Field<'_>,
         (force_x, force_y): (&mut [i64], &mut [i64]),
     ) {
-        let positions = (bits_of_fractions(x), bits_of_fractions(y));
-        let forces = (bits_of_i64_mut(force_x), bits_of_i64_mut(force_y));
-        by_order!(self.assignment, collect_in_order(self, positions, shares, field, forces));
+        let (x, y) = (bits_of_fractions(x), bits_of_fractions(y));
+        let (force_x, force_y) = (bits_of_i64_mut(force_x), bits_of_i64_mut(force_y));
+        let (level, grid) = (self.level, self.grid);
+        in_pieces_by_order!(self, Gather { level, grid, x, y, shares, field, force_x, force_y });
     }
-}
-
-fn spread_in_order<S: Shares, const P: usize>(
-    scheme: &MeshAssignment,
-    (x, y): (&[u32], &[u32]),
-    shares: S,
-    nodes: &mut [u32],
-) -> u32 {
-    let &MeshAssignment { level, pieces, grid, .. } = scheme;
-    in_pieces(Deposit::<S, P> { level, grid, x, y, shares, first_column: 0, nodes }, pieces)
-}
-
-fn collect_in_order<S: Shares, const P: usize>(
-    scheme: &MeshAssignment,
-    (x, y): (&[u32], &[u32]),
-    shares: S,
-    field: Field<'_>,
-    (force_x, force_y): (&mut [u64], &mut [u64]),
-) {
-    let &MeshAssignment { level, pieces, grid, .. } = scheme;
-    in_pieces(Gather::<S, P> { level, grid, x, y, shares, field, force_x, force_y }, pieces);
 }

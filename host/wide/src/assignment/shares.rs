@@ -4,79 +4,49 @@ use super::weights::Stencil;
 use crate::lanes::{Lanes, bits_of_i32};
 
 /// What discs share out.
-pub(super) trait Shares: Copy + Send + Sync {
-    /// Whether what a node holds could overflow: then additions saturate, and the largest sum is looked for.
-    const COUNTED: bool;
+#[derive(Clone, Copy)]
+pub(super) enum Shares<'a> {
+    /// 1 each: the weights as they are.
+    Equal,
+    /// Moduli of strengths, unit 2⁻²⁰.
+    Moduli(&'a [i32]),
+    /// Strengths, unit 2⁻²⁰: shares in two's complement.
+    Signed(&'a [i32]),
+}
 
+impl Shares<'_> {
     /// Turns the weights of the discs from `disc` on into their shares.
-    fn apply<L: Lanes, const P: usize>(self, lanes: L, disc: usize, stencil: &mut Stencil<L, P>);
-
-    /// Those of the discs before `disc`, and those from it on.
-    fn divide(self, disc: usize) -> (Self, Self);
-}
-
-/// 1 each: the weights as they are.
-#[derive(Clone, Copy)]
-pub(super) struct Equal<const COUNTED: bool>;
-
-impl<const COUNTED: bool> Shares for Equal<COUNTED> {
-    const COUNTED: bool = COUNTED;
-
     #[inline(always)]
-    fn apply<L: Lanes, const P: usize>(self, _: L, _: usize, _: &mut Stencil<L, P>) {}
-
-    fn divide(self, _: usize) -> (Self, Self) {
-        (self, self)
-    }
-}
-
-/// Moduli of strengths, unit 2⁻²⁰.
-#[derive(Clone, Copy)]
-pub(super) struct Moduli<'a>(pub &'a [i32]);
-
-impl Shares for Moduli<'_> {
-    const COUNTED: bool = true;
-
-    #[inline(always)]
-    fn apply<L: Lanes, const P: usize>(self, lanes: L, disc: usize, stencil: &mut Stencil<L, P>) {
-        let (modulus, _) = modulus_and_sign(lanes, self.0, disc);
-        stencil.share(lanes, modulus);
-    }
-
-    fn divide(self, disc: usize) -> (Self, Self) {
-        let (before, after) = self.0.split_at(disc.min(self.0.len()));
-        (Self(before), Self(after))
-    }
-}
-
-/// Strengths, unit 2⁻²⁰: shares in two's complement.
-#[derive(Clone, Copy)]
-pub(super) struct Signed<'a>(pub &'a [i32]);
-
-impl Shares for Signed<'_> {
-    const COUNTED: bool = false;
-
-    #[inline(always)]
-    fn apply<L: Lanes, const P: usize>(self, lanes: L, disc: usize, stencil: &mut Stencil<L, P>) {
-        let (modulus, sign) = modulus_and_sign(lanes, self.0, disc);
-        stencil.share(lanes, modulus);
-        for share in stencil.weights.as_flattened_mut() {
-            *share = with_sign(lanes, *share, sign);
+    pub fn apply<L: Lanes, const P: usize>(self, lanes: L, disc: usize, stencil: &mut Stencil<L, P>) {
+        let (strengths, signed) = match self {
+            Self::Equal => return,
+            Self::Moduli(strengths) => (strengths, false),
+            Self::Signed(strengths) => (strengths, true),
+        };
+        let strength = lanes.load_u32(bits_of_i32(strengths.get(disc..).unwrap_or(&[])));
+        let sign = lanes.sar(strength, 31);
+        stencil.share(lanes, with_sign(lanes, strength, sign));
+        if signed {
+            for share in stencil.weights.as_flattened_mut() {
+                *share = with_sign(lanes, *share, sign);
+            }
         }
     }
 
-    fn divide(self, disc: usize) -> (Self, Self) {
-        let (before, after) = self.0.split_at(disc.min(self.0.len()));
-        (Self(before), Self(after))
+    /// Those of the discs before `disc`, and those from it on.
+    pub fn divide(self, disc: usize) -> (Self, Self) {
+        match self {
+            Self::Equal => (self, self),
+            Self::Moduli(strengths) => {
+                let (before, after) = strengths.split_at(disc.min(strengths.len()));
+                (Self::Moduli(before), Self::Moduli(after))
+            }
+            Self::Signed(strengths) => {
+                let (before, after) = strengths.split_at(disc.min(strengths.len()));
+                (Self::Signed(before), Self::Signed(after))
+            }
+        }
     }
-}
-
-/// The moduli of the strengths from `disc` on, and all bits where they are negative.
-#[inline(always)]
-fn modulus_and_sign<L: Lanes>(lanes: L, strengths: &[i32], disc: usize) -> (L::U32, L::U32) {
-    let strength = lanes.load_u32(bits_of_i32(strengths.get(disc..).unwrap_or(&[])));
-    let sign = lanes.sar(strength, 31);
-    (with_sign(lanes, strength, sign), sign)
 }
 
 /// −`integer` where all bits of `sign` are set, else `integer`.

@@ -189,11 +189,11 @@ fn spline<L: Lanes, const P: usize>(lanes: L, above: L::F32, below: L::F32) -> [
     for order in 3..=P {
         let mut previous = weights[0];
         weights[0] = lanes.mul(below, previous);
-        for j in 1..order - 1 {
-            let own = weights[j];
+        for (j, weight) in weights.iter_mut().enumerate().take(order - 1).skip(1) {
+            let own = *weight;
             let from_previous = lanes.mul(lanes.add(above, lanes.splat((order - 1 - j) as f32)), previous);
             let from_own = lanes.mul(lanes.add(below, lanes.splat(j as f32)), own);
-            weights[j] = lanes.add(from_previous, from_own);
+            *weight = lanes.add(from_previous, from_own);
             previous = own;
         }
         weights[order - 1] = lanes.mul(above, previous);
