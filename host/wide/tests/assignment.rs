@@ -1,6 +1,6 @@
 //! Deposit and gather in lanes have the bits of the core's, at every level and in any number of pieces.
 
-use meniscus_core::assignment::{self, Crowded, DISC};
+use meniscus_core::assignment::{self, Crowded, DISC, LARGEST_NODE_MASS};
 use meniscus_core::grid::Grid;
 use meniscus_core::noise::{Purpose, StepKey};
 use meniscus_core::parameters::Assignment;
@@ -9,8 +9,20 @@ use meniscus_core::transform::Complex32;
 use meniscus_wide::assignment::{Field, MeshAssignment};
 use meniscus_wide::lanes::Level;
 
-const COUNTS: [usize; 5] = [1, 3, 16, 17, 2500];
-const PIECES: [usize; 6] = [1, 2, 3, 4, 7, 16];
+/// Numbers of discs.
+fn counts() -> impl Iterator<Item = usize> {
+    [1, 3, 16, 17, if long() { 2500 } else { 100 }].into_iter()
+}
+
+/// Whether there is time for all: the ordinary tests are not optimised.
+fn long() -> bool {
+    std::env::var_os("MENISCUS_LONG_TESTS").is_some_and(|value| value == "1")
+}
+
+/// Pieces to do the work in.
+fn pieces() -> &'static [usize] {
+    if long() { &[1, 2, 3, 4, 7, 16] } else { &[1, 3] }
+}
 
 type Discs = (Vec<Fraction>, Vec<Fraction>);
 
@@ -66,13 +78,14 @@ fn coincident(count: usize, x: u32, y: u32) -> Discs {
 }
 
 fn grids() -> impl Iterator<Item = Grid> {
-    [16, 64, 256].into_iter().filter_map(Grid::new)
+    let all: &[usize] = &[16, 64, 256];
+    (if long() { all } else { &[16, 64] }).iter().copied().filter_map(Grid::new)
 }
 
 /// Calls `check` with schemes of all levels and some pieces.
 fn for_each_scheme(grid: Grid, assignment: Assignment, mut check: impl FnMut(MeshAssignment)) {
     for level in Level::available() {
-        for pieces in PIECES {
+        for &pieces in pieces() {
             check(MeshAssignment { level, pieces, assignment, grid });
         }
     }
@@ -168,12 +181,12 @@ fn check_gather(grid: Grid, assignment: Assignment, (x, y): &Discs, value: impl 
 fn deposits_of_equal_discs_are_the_cores() {
     for grid in grids() {
         for assignment in Assignment::ALL {
-            for count in COUNTS {
+            for count in counts() {
                 check_deposit(grid, assignment, &nearly_sorted(count)).unwrap();
-                check_deposit(grid, assignment, &special(grid, count)).unwrap();
             }
-            check_deposit(grid, assignment, &unsorted(1000)).unwrap();
-            check_deposit(grid, assignment, &cluster(1000)).unwrap();
+            check_deposit(grid, assignment, &special(grid, 64)).unwrap();
+            check_deposit(grid, assignment, &unsorted(100)).unwrap();
+            check_deposit(grid, assignment, &cluster(50)).unwrap();
             check_deposit(grid, assignment, &unsorted(0)).unwrap();
         }
     }
@@ -183,61 +196,59 @@ fn deposits_of_equal_discs_are_the_cores() {
 fn deposits_of_strengths_are_the_cores() {
     for grid in grids() {
         for assignment in Assignment::ALL {
-            for count in COUNTS {
-                let strengths = strengths(count);
-                let _ = check_strengths(grid, assignment, &nearly_sorted(count), &strengths);
-                let _ = check_strengths(grid, assignment, &special(grid, count), &strengths);
+            for count in counts() {
+                let _ = check_strengths(grid, assignment, &nearly_sorted(count), &strengths(count));
             }
-            check_strengths(grid, assignment, &cluster(300), &vec![-5_000_000; 300]).unwrap();
+            let _ = check_strengths(grid, assignment, &special(grid, 64), &strengths(64));
+            check_strengths(grid, assignment, &cluster(300), &[-5_000_000; 300]).unwrap();
         }
     }
 }
 
 #[test]
 fn a_node_is_crowded_when_the_core_says_so() {
-    let grid = Grid::new(16).unwrap();
+    let grid = Grid::SMALLEST;
     // On a node, at the seams, and in the middle of a cell.
-    for (x, y) in [(0, 0), (1 << 31, 0xF800_0001), (0x0800_0000, 0x0800_0000)] {
-        for assignment in Assignment::ALL {
-            // Around the largest number of discs in one place that is not crowded.
-            let crowded = |count: usize| {
-                let (x, y) = coincident(count, x, y);
-                let mut nodes = vec![0; 256];
-                assignment::deposit(assignment, grid, &x, &y, &mut nodes).is_err()
-            };
-            let (mut most, mut step) = (4095, 1 << 16);
-            while step > 0 {
-                if !crowded(most + step) {
-                    most += step;
-                }
-                step /= 2;
-            }
+    let places = [(0, 0), (1 << 31, 0xF800_0001), (0x0800_0000, 0x0800_0000)];
+    let few = [Assignment::CloudInCell, Assignment::Order5];
+    for &assignment in if long() { &Assignment::ALL[..] } else { &few } {
+        for (x, y) in places.into_iter().take(if long() { 3 } else { 1 }) {
+            let (one_x, one_y) = coincident(1, x, y);
+            let mut nodes = [0; 256];
+            assignment::deposit(assignment, grid, &one_x, &one_y, &mut nodes).unwrap();
+            let largest_weight = nodes.into_iter().max().unwrap();
+            let most = (LARGEST_NODE_MASS * DISC / largest_weight) as usize;
             assert_eq!(check_deposit(grid, assignment, &coincident(most, x, y)), Ok(()));
             assert_eq!(check_deposit(grid, assignment, &coincident(most + 1, x, y)), Err(Crowded));
         }
-        // Twice and more often what a sum of 32 bits can hold.
-        for (assignment, count) in [(Assignment::CloudInCell, 16_384), (Assignment::Order5, 40_000)] {
-            assert_eq!(check_deposit(grid, assignment, &coincident(count, x, y)), Err(Crowded));
-        }
+    }
+    // Four times what a sum of 32 bits can hold.
+    if long() {
+        assert_eq!(check_deposit(grid, Assignment::CloudInCell, &coincident(16_384, 0, 0)), Err(Crowded));
     }
 }
 
 #[test]
 fn strengths_crowd_a_node_when_the_core_says_so() {
-    let grid = Grid::new(16).unwrap();
     let unit = DISC as i32;
+    let few: &[usize] = &[1, 2, 3, 5];
     for assignment in Assignment::ALL {
         for (x, y) in [(0, 0), (1 << 31, 0xF800_0001)] {
             for strength in [unit, -unit, i32::MIN, i32::MAX, 1000 * unit + 1, -7] {
-                for count in [1, 2, 3, 5, 2047, 2048, 4095, 4100] {
+                for &count in if long() { &[1, 2, 3, 5, 2047, 2048, 4095, 4100] } else { few } {
                     let discs = coincident(count, x, y);
                     let mut strengths = vec![strength; count];
-                    let _ = check_strengths(grid, assignment, &discs, &strengths);
+                    let _ = check_strengths(Grid::SMALLEST, assignment, &discs, &strengths);
                     strengths.iter_mut().step_by(2).for_each(|strength| *strength = strength.wrapping_neg());
-                    let _ = check_strengths(grid, assignment, &discs, &strengths);
+                    let _ = check_strengths(Grid::SMALLEST, assignment, &discs, &strengths);
                 }
             }
         }
+    }
+    for (count, verdict) in [(2047, Ok(())), (2048, Err(Crowded))] {
+        let discs = coincident(count, 0, 0);
+        let cloud = Assignment::CloudInCell;
+        assert_eq!(check_strengths(Grid::SMALLEST, cloud, &discs, &vec![-unit; count]), verdict);
     }
 }
 
@@ -246,11 +257,11 @@ fn forces_gathered_are_the_cores() {
     let ordinary = |bits: u64| (bits as i32 as f32) * 1e-8;
     for grid in grids() {
         for assignment in Assignment::ALL {
-            for count in COUNTS {
+            for count in counts() {
                 check_gather(grid, assignment, &nearly_sorted(count), ordinary);
             }
-            check_gather(grid, assignment, &special(grid, 200), ordinary);
-            check_gather(grid, assignment, &cluster(200), ordinary);
+            check_gather(grid, assignment, &special(grid, 64), ordinary);
+            check_gather(grid, assignment, &cluster(50), ordinary);
             check_gather(grid, assignment, &unsorted(0), ordinary);
         }
     }
@@ -272,7 +283,7 @@ fn forces_gathered_from_extreme_fields_are_the_cores() {
     let grid = Grid::new(16).unwrap();
     for assignment in Assignment::ALL {
         for value in [&any as &dyn Fn(u64) -> f32, &large, &no_numbers] {
-            check_gather(grid, assignment, &unsorted(300), value);
+            check_gather(grid, assignment, &unsorted(50), value);
         }
     }
 }
