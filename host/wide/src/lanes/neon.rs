@@ -152,7 +152,9 @@ impl Lanes for Neon {
             unsafe { vst1q_f32(first, value) }
         } else {
             let mut array = [0.0; WIDTH];
-            self.store_f32(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe { vst1q_f32(first, value) }
             store_part(array, to);
         }
     }
@@ -180,7 +182,9 @@ impl Lanes for Neon {
             unsafe { vst1q_u32(first, value) }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u32(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe { vst1q_u32(first, value) }
             store_part(array, to);
         }
     }
@@ -211,7 +215,12 @@ impl Lanes for Neon {
             }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u64(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe {
+                vst1q_u64(first, value[0]);
+                vst1q_u64(first.add(2), value[1])
+            }
             store_part(array, to);
         }
     }

@@ -133,8 +133,10 @@ impl Lanes for Simd128 {
             // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
             unsafe { v128_store(first.cast(), value) }
         } else {
-            let mut array = [0.0; WIDTH];
-            self.store_f32(value, &mut array);
+            let mut array = [0.0_f32; WIDTH];
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe { v128_store(first.cast(), value) }
             store_part(array, to);
         }
     }
@@ -162,7 +164,9 @@ impl Lanes for Simd128 {
             unsafe { v128_store(first.cast(), value) }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u32(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe { v128_store(first.cast(), value) }
             store_part(array, to);
         }
     }
@@ -193,7 +197,12 @@ impl Lanes for Simd128 {
             }
         } else {
             let mut array = [0; WIDTH];
-            self.store_u64(value, &mut array);
+            let first = array.as_mut_ptr();
+            // SAFETY: as above.
+            unsafe {
+                v128_store(first.cast(), value[0]);
+                v128_store(first.add(2).cast(), value[1])
+            }
             store_part(array, to);
         }
     }
