@@ -127,6 +127,26 @@ impl Order {
         self.is_identity
     }
 
+    /// About how many pairs are within reach of each other along both axes: those of the same column, a pair counted twice
+    /// and each disc with itself, but for those across the seam.
+    #[must_use]
+    pub fn close_pairs(&self) -> u64 {
+        let Cells { rows, span, .. } = self.cells;
+        let in_rows = |column: &[u32], rows: Range<usize>| {
+            let at = |row: usize| column.get(row.min(column.len() - 1)).copied().map_or(0, u64::from);
+            at(rows.end) - at(rows.start)
+        };
+        let (rows, span) = (rows as usize, span as usize);
+        // The end of a column is the beginning of the next.
+        let columns = (0..self.cells.count()).step_by(rows.max(1));
+        let columns = columns.filter_map(|first| self.begins.get(first..=first + rows));
+        let close = |column: &[u32]| -> u64 {
+            let around = |row: usize| in_rows(column, row.saturating_sub(span)..row + span + 1);
+            (0..rows).map(|row| in_rows(column, row..row + 1) * around(row)).sum()
+        };
+        columns.map(close).sum()
+    }
+
     /// The cells.
     #[must_use]
     pub fn cells(&self) -> Cells {

@@ -50,6 +50,8 @@ pub struct Wide {
     force: PairForce,
     pairs: PairLoop,
     neighbours: Neighbours,
+    /// Whether so many discs are so close to each other that no memory is spent on lists.
+    is_heap: bool,
     /// For putting the discs into another order.
     scratch: Scratch,
 }
@@ -85,6 +87,7 @@ impl Wide {
             force,
             pairs: PairLoop::new(level, &force, &table),
             neighbours: Neighbours::new(level, force.reach()),
+            is_heap: false,
             scratch: Scratch::default(),
         }
     }
@@ -104,6 +107,11 @@ impl Wide {
     fn motion(&self) -> Motion {
         Motion { level: self.level, pieces: self.division.discs }
     }
+}
+
+/// Close pairs among `count` discs up to which lists are made: discs side by side with a cut-off of 24 R0 have 350 each.
+const fn most_close_pairs(count: usize) -> u64 {
+    (1 << 22) + 512 * count as u64
 }
 
 impl Scratch {
@@ -143,8 +151,13 @@ impl Stages for Wide {
             return;
         }
         let order = self.neighbours.arrange(x, y);
+        self.is_heap = order.close_pairs() > most_close_pairs(x.len());
         if !order.is_identity() {
             self.scratch.store(order.discs(), memory);
+        }
+        if self.is_heap {
+            self.neighbours.forget();
+            return;
         }
         self.neighbours.rebuild(bits_of_fractions(memory.x), bits_of_fractions(memory.y), pieces);
     }
@@ -183,6 +196,9 @@ impl Stages for Wide {
     }
 
     fn add_pairs(&mut self, forces: &Forces, memory: &mut Memory<'_>) {
+        if self.is_heap {
+            return Scalar(AnySize).add_pairs(forces, memory);
+        }
         let strengths = match forces.coupling() {
             Coupling::None => Strengths::Alike(0.0),
             Coupling::Equal => Strengths::Alike(PairForce::EQUAL),

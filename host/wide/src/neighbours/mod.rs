@@ -182,6 +182,11 @@ impl Neighbours {
         &self.order
     }
 
+    /// Forgets the lists: no positions are fresh for them.
+    pub fn forget(&mut self) {
+        self.pieces.clear();
+    }
+
     fn sort(&mut self, x: &[u32], y: &[u32]) {
         self.order.sort(Cells::new(self.farthest + self.skin(), x.len()), x, y);
     }
