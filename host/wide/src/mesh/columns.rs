@@ -101,10 +101,15 @@ impl Kernel for Work<'_> {
             lanes.apart(Split { spectrum, first: &mut first[place..], second: &mut second[place..] });
             // Frequency M/2 is its own mirror.
             let (re, im) = (spectrum[blocks / 2].re()[0], spectrum[blocks / 2].im()[0]);
-            *end = Complex32::new(re + re, im - im);
-            *end_after = Complex32::new(im + im, re - re);
+            (*end, *end_after) = split_own_mirror(re, im);
         }
     }
+}
+
+/// Splits what is its own mirror into twice the left and the right column's.
+#[allow(clippy::eq_op, reason = "the core's operations; of what is not a number the difference is none")]
+fn split_own_mirror(re: f32, im: f32) -> (Complex32, Complex32) {
+    (Complex32::new(re + re, im - im), Complex32::new(im + im, re - re))
 }
 
 /// Two columns of node masses as a complex line.
