@@ -8,16 +8,13 @@
 //!
 //! let parameters = Parameters::default().with_p3m();
 //! let discs = [(0, Position::from_bits(0, 0)), (1, Position::from_bits(1 << 27, 1 << 20))];
-//! let mut engines = [const { Engine::<64, 2>::new() }; 2];
-//! for engine in &mut engines {
-//!     engine.init(&parameters, discs)?;
-//! }
-//! let [core, wide] = &mut engines;
-//! core.step()?;
+//! let (mut core, mut wide) = (Engine::<64, 2>::new(), Engine::<64, 2>::new());
+//! core.init(&parameters, discs).unwrap();
+//! wide.init(&parameters, discs).unwrap();
+//! core.step().unwrap();
 //! let (dynamics, mut memory) = wide.parts();
-//! dynamics.step(&mut Wide::new(&parameters, 2, 1), &mut memory)?;
+//! dynamics.step(&mut Wide::new(&parameters, 2, 1), &mut memory).unwrap();
 //! assert_eq!(core.state().digest(), wide.state().digest());
-//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 use crate::assignment::{Field, MeshAssignment};

@@ -1,6 +1,8 @@
 //! Steps of the wide stages against those of the core: the same state after every step, at every width of lanes and in
 //! any number of pieces.
 
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
+
 use meniscus_core::dynamics::Disc;
 use meniscus_core::engine::Engine;
 use meniscus_core::fields::Fields;
@@ -13,7 +15,12 @@ use meniscus_wide::stages::Wide;
 
 type SmallEngine = Engine<64, 300>;
 
-const PIECES: [usize; 6] = [1, 2, 3, 4, 7, 16];
+/// Numbers of pieces and steps: all of them in a release build, or if the long tests are asked for.
+fn extent() -> (&'static [usize], usize) {
+    let is_long =
+        !cfg!(debug_assertions) || std::env::var_os("MENISCUS_LONG_TESTS").is_some_and(|value| value == "1");
+    if is_long { (&[1, 2, 3, 4, 7, 16], 20) } else { (&[1, 3], 4) }
+}
 
 /// Discs at random, some of them in a cluster across the seams, ids from the last to the first.
 fn discs(count: usize, strengths: &[i32]) -> Vec<Disc> {
@@ -85,16 +92,17 @@ fn in_threads<R: Send>(count: usize, task: impl FnOnce() -> R + Send) -> R {
 
 #[test]
 fn every_state_is_the_cores() {
+    let (all_pieces, steps) = extent();
     for (number, (parameters, discs)) in cases().into_iter().enumerate() {
         let mut expected = Box::new(SmallEngine::new());
         let mut digests = Vec::new();
         expected.init(&parameters, discs.iter().copied()).unwrap();
-        for _ in 0..20 {
+        for _ in 0..steps {
             expected.step().unwrap();
             digests.push(expected.state().digest());
         }
         for level in Level::available() {
-            for pieces in PIECES {
+            for &pieces in all_pieces {
                 let division = Division { mesh: pieces, discs: pieces };
                 let mut wide = Wide::with(&parameters, level, division);
                 let mut engine = Box::new(SmallEngine::new());
