@@ -68,16 +68,16 @@ fn cases() -> Vec<(Parameters, Vec<Disc>)> {
 fn a_heap_of_discs_takes_no_memory_for_lists() {
     let parameters = Parameters { capillary_strength: 0.0, ..Parameters::PAPER };
     let place = |id: u32| (id, Position::from_bits(id % 3, id % 2));
-    let mut expected = Box::new(Engine::<64, 4000>::new());
-    let mut engine = Box::new(Engine::<64, 4000>::new());
-    expected.init(&parameters, (0..4000).map(place)).unwrap();
-    engine.init(&parameters, (0..4000).map(place)).unwrap();
+    let mut expected = Box::new(Engine::<64, 3000>::new());
+    let mut engine = Box::new(Engine::<64, 3000>::new());
+    expected.init(&parameters, (0..3000).map(place)).unwrap();
+    engine.init(&parameters, (0..3000).map(place)).unwrap();
     expected.compute_forces().unwrap();
     for pieces in [1, 3] {
         let mut wide = Wide::with(&parameters, Level::best(), Division { mesh: pieces, discs: pieces });
         let (dynamics, mut memory) = engine.parts();
         in_threads(pieces, || dynamics.forces(&mut wide, &mut memory)).unwrap();
-        assert!((0..4000).all(|disc| engine.force(disc) == expected.force(disc)));
+        assert!((0..3000).all(|disc| engine.force(disc) == expected.force(disc)));
         assert!(engine.force(0).is_some_and(|force| force != (0, 0)));
     }
 }
