@@ -17,6 +17,7 @@ use meniscus_core::near_part::{fill_table, table_length};
 use meniscus_core::noise::{Purpose, StepKey, ThermalKick};
 use meniscus_core::pair_force::{PairForce, near_cutoff};
 use meniscus_core::parameters::{Assignment, Noise, Parameters};
+use meniscus_core::torus::Fraction;
 use meniscus_core::transform::{AnySize, Complex32};
 use meniscus_wide::assignment::{Field, MeshAssignment};
 use meniscus_wide::lanes::{Level, bits_of_fractions};
@@ -126,8 +127,8 @@ fn pair_stages(criterion: &mut Criterion) {
             for level in Level::available() {
                 let mut neighbours = Neighbours::new(level, force.reach());
                 let order = neighbours.arrange(bits_of_fractions(&x), bits_of_fractions(&y)).discs().to_vec();
-                permute(&order, &mut x, &mut Vec::new());
-                permute(&order, &mut y, &mut Vec::new());
+                permute(&order, &mut x, &mut vec![Fraction::ZERO; COUNT]);
+                permute(&order, &mut y, &mut vec![Fraction::ZERO; COUNT]);
                 let (x, y) = (bits_of_fractions(&x), bits_of_fractions(&y));
                 group.bench_function(BenchmarkId::new(level.name(), "new lists"), |bencher| {
                     bencher.iter(|| neighbours.rebuild(x, y, 1));

@@ -11,7 +11,7 @@
 //! let mut order = Order::default();
 //! order.sort(Cells::new(1 << 30, x.len()), &x, &y);
 //! assert_eq!(order.discs(), [2, 1, 0]);
-//! permute(order.discs(), &mut x, &mut Vec::new());
+//! permute(order.discs(), &mut x, &mut [0; 3]);
 //! assert_eq!(x, [0x0800_0000, 0x1000_0000, 0xF000_0000]);
 //! ```
 
@@ -197,14 +197,15 @@ pub enum Reached {
 }
 
 /// Brings the values of discs into an order: the one at place i is that of the disc `order[i]`. `scratch` is
-/// working memory that grows to their number. Nothing happens if there are not as many values as places.
-pub fn permute<T: Copy>(order: &[u32], values: &mut [T], scratch: &mut Vec<T>) {
-    if order.len() != values.len() {
+/// working memory of as many elements. Nothing happens if there are not as many of each as places.
+pub fn permute<T: Copy>(order: &[u32], values: &mut [T], scratch: &mut [T]) {
+    if order.len() != values.len() || scratch.len() != values.len() {
         return;
     }
-    scratch.clear();
-    scratch.extend(order.iter().filter_map(|&disc| values.get(disc as usize)));
-    if let Some(permuted) = scratch.get(..values.len()) {
-        values.copy_from_slice(permuted);
+    for (place, &disc) in scratch.iter_mut().zip(order) {
+        if let Some(&value) = values.get(disc as usize) {
+            *place = value;
+        }
     }
+    values.copy_from_slice(scratch);
 }

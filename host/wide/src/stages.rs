@@ -19,7 +19,7 @@
 
 use crate::assignment::{Field, MeshAssignment};
 use crate::division::Division;
-use crate::lanes::{Level, bits_of_fractions};
+use crate::lanes::{Level, bits_of_fractions, bits_of_fractions_mut, bits_of_i32_mut};
 use crate::mesh::Solver;
 use crate::motion::Motion;
 use crate::neighbours::Neighbours;
@@ -35,7 +35,6 @@ use meniscus_core::near_part::{Segment, fill_table, table_length};
 use meniscus_core::pair_force::{PairForce, near_cutoff};
 use meniscus_core::parameters::Parameters;
 use meniscus_core::stages::{Scalar, Stages};
-use meniscus_core::torus::Fraction;
 use meniscus_core::transform::AnySize;
 
 /// The stages of one run, and the arrays that are theirs alone: `field`, `lines` and `next` of the memory are not used.
@@ -49,16 +48,6 @@ pub struct Wide {
     neighbours: Neighbours,
     /// Whether so many discs are so close to each other that no memory is spent on lists.
     is_heap: bool,
-    /// For putting the discs into another order.
-    scratch: Scratch,
-}
-
-#[derive(Debug, Default)]
-struct Scratch {
-    of_32_bits: Vec<u32>,
-    signed: Vec<i32>,
-    fractions: Vec<Fraction>,
-    of_64_bits: Vec<i64>,
 }
 
 impl Wide {
@@ -85,7 +74,6 @@ impl Wide {
             pairs: PairLoop::new(level, &force, &table),
             neighbours: Neighbours::new(level, force.reach()),
             is_heap: false,
-            scratch: Scratch::default(),
         }
     }
 
@@ -111,24 +99,23 @@ const fn most_close_pairs(count: usize) -> u64 {
     (1 << 22) + 512 * count as u64
 }
 
-impl Scratch {
-    /// Stores the discs in this order.
-    fn store(&mut self, order: &[u32], discs: &mut Memory<'_>) {
-        permute(order, discs.ids, &mut self.of_32_bits);
-        for (slot, &id) in discs.ids.iter().enumerate() {
-            if let Some(place) = discs.slots.get_mut(id as usize) {
-                *place = slot as u32;
-            }
+/// Stores the discs in this order; their displacements and forces, which are yet to be computed, serve as working memory.
+fn store(order: &[u32], discs: &mut Memory<'_>) {
+    let scratch = bits_of_i32_mut(discs.displacement_x);
+    permute(order, discs.ids, scratch);
+    for (slot, &id) in discs.ids.iter().enumerate() {
+        if let Some(place) = discs.slots.get_mut(id as usize) {
+            *place = slot as u32;
         }
-        for values in [&mut *discs.x, discs.y, discs.reference_x, discs.reference_y] {
-            permute(order, values, &mut self.fractions);
-        }
-        for values in [&mut *discs.crossings_x, discs.crossings_y, discs.strengths] {
-            permute(order, values, &mut self.signed);
-        }
-        for values in [&mut *discs.held_x, discs.held_y] {
-            permute(order, values, &mut self.of_64_bits);
-        }
+    }
+    for values in [&mut *discs.x, discs.y, discs.reference_x, discs.reference_y] {
+        permute(order, bits_of_fractions_mut(values), scratch);
+    }
+    for values in [&mut *discs.crossings_x, discs.crossings_y, discs.strengths] {
+        permute(order, bits_of_i32_mut(values), scratch);
+    }
+    for values in [&mut *discs.held_x, discs.held_y] {
+        permute(order, values, discs.force_x);
     }
 }
 
@@ -150,7 +137,7 @@ impl Stages for Wide {
         let order = self.neighbours.arrange(x, y);
         self.is_heap = order.close_pairs() > most_close_pairs(x.len());
         if !order.is_identity() {
-            self.scratch.store(order.discs(), memory);
+            store(order.discs(), memory);
         }
         if self.is_heap {
             self.neighbours.forget();

@@ -161,8 +161,8 @@ fn before(count: usize) -> (Vec<i64>, Vec<i64>) {
 fn arranged(mut state: State, reach: u32) -> State {
     let mut neighbours = Neighbours::new(Level::PORTABLE, reach).with_skin(R0);
     let order = neighbours.arrange(&state.0, &state.1).discs().to_vec();
-    permute(&order, &mut state.0, &mut Vec::new());
-    permute(&order, &mut state.1, &mut Vec::new());
+    permute(&order, &mut state.0, &mut vec![0; order.len()]);
+    permute(&order, &mut state.1, &mut vec![0; order.len()]);
     assert!(neighbours.arrange(&state.0, &state.1).is_identity());
     state
 }

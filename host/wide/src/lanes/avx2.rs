@@ -440,12 +440,6 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn prefetch<T>(self, wanted: &T) {
-        // SAFETY: a hint, which reads nothing.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
-    }
-
-    #[inline(always)]
     fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [__m256i; 2] {
         let index = match index.first_chunk::<WIDTH>() {
             Some(index) if self.bits(self.inside(table.len(), self.load_u32(index))) == 0xFF => index,

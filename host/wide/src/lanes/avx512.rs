@@ -389,12 +389,6 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn prefetch<T>(self, wanted: &T) {
-        // SAFETY: a hint, which reads nothing.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
-    }
-
-    #[inline(always)]
     fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [__m512i; 2] {
         let index = match index.first_chunk::<WIDTH>() {
             Some(index) if self.inside(table.len(), self.load_u32(index)) == 0xFFFF => index,

@@ -422,7 +422,7 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     /// Asks for the cache line in which something begins to be brought near before it is needed. Changes nothing else.
     #[inline(always)]
     fn prefetch<T>(self, wanted: &T) {
-        let _ = wanted;
+        self.prefetch_slice(core::slice::from_ref(wanted));
     }
 }
 

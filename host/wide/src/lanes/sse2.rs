@@ -382,12 +382,6 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    fn prefetch<T>(self, wanted: &T) {
-        // SAFETY: a hint, which reads nothing.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(wanted).cast()) }
-    }
-
-    #[inline(always)]
     fn gather_pairs(self, table: &[[u32; 2]], index: &[u32]) -> [__m128i; 2] {
         let pair = |lane: usize| index.get(lane).and_then(|&index| table.get(index as usize));
         let (Some(a), Some(b), Some(c), Some(d)) = (pair(0), pair(1), pair(2), pair(3)) else {
