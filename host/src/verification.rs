@@ -56,6 +56,9 @@ pub fn compare_with_core(simulation: Simulation, last: u64) -> Result<Option<Dif
     let reversed = engine.discs().into_iter().rev();
     let core = Machinery { kind: Kind::Core, threads: 1 };
     let mut other = Engine::with_machinery(core, &configuration.parameters(), engine.clock(), reversed)?;
+    if let Some(held) = engine.held() {
+        other.hold(&held)?;
+    }
     while engine.clock().step < last {
         engine.step()?;
         other.step()?;

@@ -176,7 +176,7 @@ typedef enum {
   MENISCUS_STATUS_NOT_INITIALISED = 64,
   /**
    * A mesh node would hold more than 4095 discs, or strengths of more than 2047, or, of more than 524288 discs, more than
-   * 32768 would be in one cell as wide as the repulsion reaches.
+   * 32768 would be in one cell of a division of the box into at most 256 x 256.
    */
   MENISCUS_STATUS_CROWDED = 65,
   /**

@@ -90,7 +90,7 @@ pub enum MeniscusStatus {
     /// There are no discs: no run was set, or setting it failed.
     NotInitialised = 64,
     /// A mesh node would hold more than 4095 discs, or strengths of more than 2047, or, of more than 524288 discs, more than
-    /// 32768 would be in one cell as wide as the repulsion reaches.
+    /// 32768 would be in one cell of a division of the box into at most 256 x 256.
     Crowded = 65,
     /// The largest force allows no step of even 2^-40 R0^2/D.
     StepTooShort = 66,
@@ -151,7 +151,7 @@ const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
     (S::Id, c"the ids are not 0 to count - 1, each once"),
     (S::Strength, c"a strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT"),
     (S::NotInitialised, c"there are no discs: no run was set, or setting it failed"),
-    (S::Crowded, c"too many discs in one place: a mesh node holds 4095 discs, or strengths of 2047"),
+    (S::Crowded, c"too many discs in one place: a mesh node holds 4095 discs, or strengths of 2047; of more than 524288 discs a cell 32768"),
     (S::StepTooShort, c"the largest force allows no step of even 2^-40 R0^2/D"),
     (S::TimeOverflow, c"time would exceed 2^24 R0^2/D, or the number of steps 2^64 - 1"),
     (S::HalfBox, c"a disc would move by half a box or more"),

@@ -34,7 +34,9 @@ fn init_message(error: InitError) -> String {
              {LARGEST_CAPILLARY_STRENGTH} kBT"
         ),
         InitError::GridMismatch | InitError::Memory => "the memory does not fit the mesh".into(),
-        InitError::NoRoomToHold => "there is no room to hold the forces of the mesh".into(),
+        InitError::NoRoomToHold => {
+            "the memory has no room to hold the forces of the mesh; leave force.mesh_refresh out".into()
+        }
         InitError::HeldForce { id } => format!(
             "the held forces do not belong to these discs (that of disc {id} is missing, too many or too large); \
              start from the state without them"
@@ -52,14 +54,16 @@ fn step_message(error: StepError) -> &'static str {
         StepError::NotInitialised => "there are no discs",
         StepError::Memory => "the memory does not fit the run",
         StepError::Crowded => {
-            "too many discs are in one place (a mesh node holds 4095 discs, or strengths of 2047); \
-             use a finer mesh or fewer discs"
+            "too many discs are in one place (a mesh node holds 4095 discs, or strengths of 2047; of more than 524288 discs, \
+             a 256th of the box along x and y holds 32768); spread them, or use a finer mesh or fewer discs"
         }
         StepError::StepTooShort => {
             "the largest force allows no step of 2⁻⁴⁰ R0²/D; \
              separate overlapping discs or raise motion.max_displacement"
         }
-        StepError::TimeOverflow => "time would exceed 2²⁴ R0²/D",
+        StepError::TimeOverflow => {
+            "time would exceed 2²⁴ R0²/D, or the number of steps 2⁶⁴ − 1: a run cannot go on longer"
+        }
         StepError::HalfBox => "a disc would move by half a box; lower motion.max_step",
     }
 }

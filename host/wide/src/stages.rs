@@ -37,13 +37,14 @@ use meniscus_core::parameters::Parameters;
 use meniscus_core::stages::{Scalar, Stages};
 use meniscus_core::transform::AnySize;
 
-/// The stages of one run, and the arrays that are theirs alone: `field`, `lines` and `next` of the memory are not used.
+/// The stages of one run, and the arrays that are theirs alone: `field` and `lines` of the memory are not used.
 #[derive(Debug)]
 pub struct Wide {
     level: Level,
     division: Division,
     solver: Solver,
     force: PairForce,
+    table: Vec<Segment>,
     pairs: PairLoop,
     neighbours: Neighbours,
     /// Whether so many discs are so close to each other that no memory is spent on lists.
@@ -72,6 +73,7 @@ impl Wide {
             solver: Solver::new(grid, level),
             force,
             pairs: PairLoop::new(level, &force, &table),
+            table,
             neighbours: Neighbours::new(level, force.reach()),
             is_heap: false,
         }
@@ -125,6 +127,7 @@ impl Stages for Wide {
         memory.nodes.len() == side * side
             && self.solver.grid() == forces.grid()
             && self.force == *forces.pairs()
+            && memory.near.get(..forces.near_length()) == Some(self.table.as_slice())
     }
 
     /// Makes new lists of neighbours where the old ones have become useless, and stores the discs in the order of cells.

@@ -1,5 +1,6 @@
 //! AVX2: eight numbers.
 
+use super::moves::moves;
 use super::{Kernel, LARGEST_WIDTH, Lanes, Sixteen, gather_pairs};
 use core::arch::x86_64::*;
 
@@ -26,23 +27,6 @@ const INTEGERS: f64 = 6_755_399_441_055_744.0;
 /// 2⁵¹
 const LARGEST_ROUNDED: f32 = 2_251_799_813_685_248.0;
 
-/// Up to the width of elements, zeros after them.
-#[cold]
-fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
-    let mut array = [T::default(); WIDTH];
-    for (place, &value) in array.iter_mut().zip(from) {
-        *place = value;
-    }
-    array
-}
-
-#[cold]
-fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
-    for (place, value) in to.iter_mut().zip(values) {
-        *place = value;
-    }
-}
-
 /// Methods that are one expression of instructions.
 macro_rules! instructions {
     ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
@@ -60,6 +44,17 @@ impl Lanes for Avx2 {
     type U32 = __m256i;
     type U64 = [__m256i; 2];
     type Mask = __m256i;
+
+    moves! {
+        f32, __m256: load_f32 = |from| _mm256_loadu_ps(from), store_f32 = |to, value| _mm256_storeu_ps(to, value);
+        u32, __m256i: load_u32 = |from| _mm256_loadu_si256(from.cast()),
+            store_u32 = |to, value| _mm256_storeu_si256(to.cast(), value);
+        u64, [__m256i; 2]: load_u64 = |from| [_mm256_loadu_si256(from.cast()), _mm256_loadu_si256(from.add(4).cast())],
+            store_u64 = |to, value| {
+                _mm256_storeu_si256(to.cast(), value[0]);
+                _mm256_storeu_si256(to.add(4).cast(), value[1]);
+            };
+    }
 
     instructions! {
         splat(value: f32) -> __m256 = _mm256_set1_ps(value);
@@ -257,96 +252,6 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn load_f32(self, from: &[f32]) -> __m256 {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[f32; WIDTH] = whole;
-        // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
-        unsafe { _mm256_loadu_ps(whole.as_ptr()) }
-    }
-
-    #[inline(always)]
-    fn store_f32(self, value: __m256, to: &mut [f32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
-            unsafe { _mm256_storeu_ps(whole.as_mut_ptr(), value) }
-        } else {
-            let mut array = [0.0; WIDTH];
-            // SAFETY: as above.
-            unsafe { _mm256_storeu_ps(array.as_mut_ptr(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u32(self, from: &[u32]) -> __m256i {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u32; WIDTH] = whole;
-        // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
-        unsafe { _mm256_loadu_si256(whole.as_ptr().cast()) }
-    }
-
-    #[inline(always)]
-    fn store_u32(self, value: __m256i, to: &mut [u32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            // SAFETY: `self` says that AVX2 is there, and the array has eight elements; they need not be aligned.
-            unsafe { _mm256_storeu_si256(whole.as_mut_ptr().cast(), value) }
-        } else {
-            let mut array = [0; WIDTH];
-            // SAFETY: as above.
-            unsafe { _mm256_storeu_si256(array.as_mut_ptr().cast(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u64(self, from: &[u64]) -> [__m256i; 2] {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u64; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that AVX2 is there, and the array has eight elements, four a register, aligned or not.
-        unsafe { [_mm256_loadu_si256(first.cast()), _mm256_loadu_si256(first.add(4).cast())] }
-    }
-
-    #[inline(always)]
-    fn store_u64(self, value: [__m256i; 2], to: &mut [u64]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that AVX2 is there, and the array has eight elements, four a register, aligned or not.
-            unsafe {
-                _mm256_storeu_si256(first.cast(), value[0]);
-                _mm256_storeu_si256(first.add(4).cast(), value[1]);
-            }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe {
-                _mm256_storeu_si256(first.cast(), value[0]);
-                _mm256_storeu_si256(first.add(4).cast(), value[1]);
-            }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
     fn gather_f32(self, table: &[f32], index: __m256i) -> __m256 {
         let inside = self.inside(table.len(), index);
         // SAFETY: `self` says that AVX2 is there; only lanes with an index inside the table are read.
@@ -445,12 +350,13 @@ impl Lanes for Avx2 {
             Some(index) if self.bits(self.inside(table.len(), self.load_u32(index))) == 0xFF => index,
             _ => return self.gather_pairs_of_some(table, index),
         };
-        // SAFETY: `self` says that AVX2 is there; all indices are inside the table.
+        // SAFETY: `self` says that AVX2 is there; all indices are inside the table, whose elements need not be aligned.
         unsafe {
-            let first = table.as_ptr().cast::<f64>();
+            let first = table.as_ptr();
             let two = |lane: usize| {
-                let lower = _mm_load_sd(first.add(index[lane] as usize));
-                _mm_loadh_pd(lower, first.add(index[lane + 1] as usize))
+                let lower = _mm_loadl_epi64(first.add(index[lane] as usize).cast());
+                let upper = _mm_loadl_epi64(first.add(index[lane + 1] as usize).cast());
+                _mm_castsi128_pd(_mm_unpacklo_epi64(lower, upper))
             };
             let four = |lane: usize| {
                 _mm256_castpd_ps(_mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(two(lane)), two(lane + 4)))

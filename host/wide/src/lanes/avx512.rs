@@ -1,5 +1,6 @@
 //! AVX-512: sixteen numbers.
 
+use super::moves::moves;
 use super::{Kernel, Lanes, Sixteen, gather_pairs};
 use core::arch::x86_64::*;
 
@@ -20,23 +21,6 @@ impl Avx512 {
 
 const WIDTH: usize = 16;
 
-/// Up to the width of elements, zeros after them.
-#[cold]
-fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
-    let mut array = [T::default(); WIDTH];
-    for (place, &value) in array.iter_mut().zip(from) {
-        *place = value;
-    }
-    array
-}
-
-#[cold]
-fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
-    for (place, value) in to.iter_mut().zip(values) {
-        *place = value;
-    }
-}
-
 /// Methods that are one expression of instructions.
 macro_rules! instructions {
     ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
@@ -54,6 +38,17 @@ impl Lanes for Avx512 {
     type U32 = __m512i;
     type U64 = [__m512i; 2];
     type Mask = __mmask16;
+
+    moves! {
+        f32, __m512: load_f32 = |from| _mm512_loadu_ps(from), store_f32 = |to, value| _mm512_storeu_ps(to, value);
+        u32, __m512i: load_u32 = |from| _mm512_loadu_si512(from.cast()),
+            store_u32 = |to, value| _mm512_storeu_si512(to.cast(), value);
+        u64, [__m512i; 2]: load_u64 = |from| [_mm512_loadu_si512(from.cast()), _mm512_loadu_si512(from.add(8).cast())],
+            store_u64 = |to, value| {
+                _mm512_storeu_si512(to.cast(), value[0]);
+                _mm512_storeu_si512(to.add(8).cast(), value[1]);
+            };
+    }
 
     instructions! {
         splat(value: f32) -> __m512 = _mm512_set1_ps(value);
@@ -222,96 +217,6 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn load_f32(self, from: &[f32]) -> __m512 {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[f32; WIDTH] = whole;
-        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
-        unsafe { _mm512_loadu_ps(whole.as_ptr()) }
-    }
-
-    #[inline(always)]
-    fn store_f32(self, value: __m512, to: &mut [f32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
-            unsafe { _mm512_storeu_ps(whole.as_mut_ptr(), value) }
-        } else {
-            let mut array = [0.0; WIDTH];
-            // SAFETY: as above.
-            unsafe { _mm512_storeu_ps(array.as_mut_ptr(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u32(self, from: &[u32]) -> __m512i {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u32; WIDTH] = whole;
-        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
-        unsafe { _mm512_loadu_si512(whole.as_ptr().cast()) }
-    }
-
-    #[inline(always)]
-    fn store_u32(self, value: __m512i, to: &mut [u32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements; they need not be aligned.
-            unsafe { _mm512_storeu_si512(whole.as_mut_ptr().cast(), value) }
-        } else {
-            let mut array = [0; WIDTH];
-            // SAFETY: as above.
-            unsafe { _mm512_storeu_si512(array.as_mut_ptr().cast(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u64(self, from: &[u64]) -> [__m512i; 2] {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u64; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements, eight a register, aligned or not.
-        unsafe { [_mm512_loadu_si512(first.cast()), _mm512_loadu_si512(first.add(8).cast())] }
-    }
-
-    #[inline(always)]
-    fn store_u64(self, value: [__m512i; 2], to: &mut [u64]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that AVX-512 is there, and the array has sixteen elements, eight a register.
-            unsafe {
-                _mm512_storeu_si512(first.cast(), value[0]);
-                _mm512_storeu_si512(first.add(8).cast(), value[1]);
-            }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe {
-                _mm512_storeu_si512(first.cast(), value[0]);
-                _mm512_storeu_si512(first.add(8).cast(), value[1]);
-            }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
     fn gather_f32(self, table: &[f32], index: __m512i) -> __m512 {
         let inside = self.inside(table.len(), index);
         // SAFETY: `self` says that AVX-512 is there; only lanes with an index inside the table are read.
@@ -394,12 +299,13 @@ impl Lanes for Avx512 {
             Some(index) if self.inside(table.len(), self.load_u32(index)) == 0xFFFF => index,
             _ => return self.gather_pairs_of_some(table, index),
         };
-        // SAFETY: `self` says that AVX-512 is there; all indices are inside the table.
+        // SAFETY: `self` says that AVX-512 is there; all indices are inside the table, whose elements need not be aligned.
         unsafe {
-            let first = table.as_ptr().cast::<f64>();
+            let first = table.as_ptr();
             let two = |lane: usize| {
-                let lower = _mm_load_sd(first.add(index[lane] as usize));
-                _mm_loadh_pd(lower, first.add(index[lane + 1] as usize))
+                let lower = _mm_loadl_epi64(first.add(index[lane] as usize).cast());
+                let upper = _mm_loadl_epi64(first.add(index[lane + 1] as usize).cast());
+                _mm_castsi128_pd(_mm_unpacklo_epi64(lower, upper))
             };
             let eight = |lane: usize| {
                 let pairs = _mm512_castpd128_pd512(two(lane));

@@ -39,6 +39,7 @@ mod avx2;
 mod avx512;
 mod combs;
 mod level;
+mod moves;
 #[cfg(target_arch = "aarch64")]
 mod neon;
 mod portable;

@@ -1,6 +1,7 @@
 //! NEON: four numbers, on every 64-bit ARM.
 
 use super::Lanes;
+use super::moves::moves;
 use core::arch::aarch64::*;
 
 /// Four numbers in a register of 128 bits.
@@ -20,23 +21,6 @@ impl Neon {
 
 const WIDTH: usize = 4;
 
-/// Up to the width of elements, zeros after them.
-#[cold]
-fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
-    let mut array = [T::default(); WIDTH];
-    for (place, &value) in array.iter_mut().zip(from) {
-        *place = value;
-    }
-    array
-}
-
-#[cold]
-fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
-    for (place, value) in to.iter_mut().zip(values) {
-        *place = value;
-    }
-}
-
 /// Methods that are one expression of instructions.
 macro_rules! instructions {
     ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
@@ -54,6 +38,16 @@ impl Lanes for Neon {
     type U32 = uint32x4_t;
     type U64 = [uint64x2_t; 2];
     type Mask = uint32x4_t;
+
+    moves! {
+        f32, float32x4_t: load_f32 = |from| vld1q_f32(from), store_f32 = |to, value| vst1q_f32(to, value);
+        u32, uint32x4_t: load_u32 = |from| vld1q_u32(from), store_u32 = |to, value| vst1q_u32(to, value);
+        u64, [uint64x2_t; 2]: load_u64 = |from| [vld1q_u64(from), vld1q_u64(from.add(2))],
+            store_u64 = |to, value| {
+                vst1q_u64(to, value[0]);
+                vst1q_u64(to.add(2), value[1]);
+            };
+    }
 
     instructions! {
         splat(value: f32) -> float32x4_t = vdupq_n_f32(value);
@@ -127,102 +121,6 @@ impl Lanes for Neon {
             *a = a.wrapping_mul(b);
         }
         self.load_u64(&products)
-    }
-
-    #[inline(always)]
-    fn load_f32(self, from: &[f32]) -> float32x4_t {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[f32; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that NEON is there, and the array has four elements; they need not be aligned.
-        unsafe { vld1q_f32(first) }
-    }
-
-    #[inline(always)]
-    fn store_f32(self, value: float32x4_t, to: &mut [f32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that NEON is there, and the array has four elements; they need not be aligned.
-            unsafe { vst1q_f32(first, value) }
-        } else {
-            let mut array = [0.0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe { vst1q_f32(first, value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u32(self, from: &[u32]) -> uint32x4_t {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u32; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that NEON is there, and the array has four elements; they need not be aligned.
-        unsafe { vld1q_u32(first) }
-    }
-
-    #[inline(always)]
-    fn store_u32(self, value: uint32x4_t, to: &mut [u32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that NEON is there, and the array has four elements; they need not be aligned.
-            unsafe { vst1q_u32(first, value) }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe { vst1q_u32(first, value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u64(self, from: &[u64]) -> [uint64x2_t; 2] {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u64; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that NEON is there, and the array has four elements; they need not be aligned.
-        unsafe { [vld1q_u64(first), vld1q_u64(first.add(2))] }
-    }
-
-    #[inline(always)]
-    fn store_u64(self, value: [uint64x2_t; 2], to: &mut [u64]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that NEON is there, and the array has four elements; they need not be aligned.
-            unsafe {
-                vst1q_u64(first, value[0]);
-                vst1q_u64(first.add(2), value[1])
-            }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe {
-                vst1q_u64(first, value[0]);
-                vst1q_u64(first.add(2), value[1])
-            }
-            store_part(array, to);
-        }
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! WebAssembly's registers of 128 bits: four numbers, in programs built with `simd128`.
 
 use super::Lanes;
+use super::moves::moves;
 use core::arch::wasm32::*;
 
 /// Four numbers in a register of 128 bits.
@@ -20,23 +21,6 @@ impl Simd128 {
 
 const WIDTH: usize = 4;
 
-/// Up to the width of elements, zeros after them.
-#[cold]
-fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
-    let mut array = [T::default(); WIDTH];
-    for (place, &value) in array.iter_mut().zip(from) {
-        *place = value;
-    }
-    array
-}
-
-#[cold]
-fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
-    for (place, value) in to.iter_mut().zip(values) {
-        *place = value;
-    }
-}
-
 /// Methods that are one expression of instructions.
 macro_rules! instructions {
     ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
@@ -53,6 +37,16 @@ impl Lanes for Simd128 {
     type U32 = v128;
     type U64 = [v128; 2];
     type Mask = v128;
+
+    moves! {
+        f32, v128: load_f32 = |from| v128_load(from.cast()), store_f32 = |to, value| v128_store(to.cast(), value);
+        u32, v128: load_u32 = |from| v128_load(from.cast()), store_u32 = |to, value| v128_store(to.cast(), value);
+        u64, [v128; 2]: load_u64 = |from| [v128_load(from.cast()), v128_load(from.add(2).cast())],
+            store_u64 = |to, value| {
+                v128_store(to.cast(), value[0]);
+                v128_store(to.add(2).cast(), value[1]);
+            };
+    }
 
     instructions! {
         splat(value: f32) -> v128 = f32x4_splat(value);
@@ -109,102 +103,6 @@ impl Lanes for Simd128 {
     #[inline(always)]
     fn sum_u64(self, a: [v128; 2]) -> u64 {
         self.array_u64(a).into_iter().fold(0, u64::wrapping_add)
-    }
-
-    #[inline(always)]
-    fn load_f32(self, from: &[f32]) -> v128 {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[f32; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
-        unsafe { v128_load(first.cast()) }
-    }
-
-    #[inline(always)]
-    fn store_f32(self, value: v128, to: &mut [f32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
-            unsafe { v128_store(first.cast(), value) }
-        } else {
-            let mut array = [0.0_f32; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe { v128_store(first.cast(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u32(self, from: &[u32]) -> v128 {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u32; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
-        unsafe { v128_load(first.cast()) }
-    }
-
-    #[inline(always)]
-    fn store_u32(self, value: v128, to: &mut [u32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
-            unsafe { v128_store(first.cast(), value) }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe { v128_store(first.cast(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u64(self, from: &[u64]) -> [v128; 2] {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u64; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
-        unsafe { [v128_load(first.cast()), v128_load(first.add(2).cast())] }
-    }
-
-    #[inline(always)]
-    fn store_u64(self, value: [v128; 2], to: &mut [u64]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: `self` says that `simd128` is there, and the array has four elements; they need not be aligned.
-            unsafe {
-                v128_store(first.cast(), value[0]);
-                v128_store(first.add(2).cast(), value[1])
-            }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe {
-                v128_store(first.cast(), value[0]);
-                v128_store(first.add(2).cast(), value[1])
-            }
-            store_part(array, to);
-        }
     }
 
     #[inline(always)]

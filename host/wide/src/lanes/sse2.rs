@@ -1,5 +1,6 @@
 //! SSE2: four numbers, on every x86-64.
 
+use super::moves::moves;
 use super::{LARGEST_WIDTH, Lanes, Sixteen, gather_pairs};
 use core::arch::x86_64::*;
 
@@ -26,23 +27,6 @@ const INTEGERS: f64 = 6_755_399_441_055_744.0;
 /// 2⁵¹
 const LARGEST_ROUNDED: f32 = 2_251_799_813_685_248.0;
 
-/// Up to the width of elements, zeros after them.
-#[cold]
-fn part<T: Copy + Default>(from: &[T]) -> [T; WIDTH] {
-    let mut array = [T::default(); WIDTH];
-    for (place, &value) in array.iter_mut().zip(from) {
-        *place = value;
-    }
-    array
-}
-
-#[cold]
-fn store_part<T: Copy>(values: [T; WIDTH], to: &mut [T]) {
-    for (place, value) in to.iter_mut().zip(values) {
-        *place = value;
-    }
-}
-
 /// Methods that are one expression of instructions.
 macro_rules! instructions {
     ($($name:ident($($argument:ident: $type:ty),*) -> $result:ty = $value:expr;)*) => { $(
@@ -60,6 +44,17 @@ impl Lanes for Sse2 {
     type U32 = __m128i;
     type U64 = [__m128i; 2];
     type Mask = __m128i;
+
+    moves! {
+        f32, __m128: load_f32 = |from| _mm_loadu_ps(from), store_f32 = |to, value| _mm_storeu_ps(to, value);
+        u32, __m128i: load_u32 = |from| _mm_loadu_si128(from.cast()),
+            store_u32 = |to, value| _mm_storeu_si128(to.cast(), value);
+        u64, [__m128i; 2]: load_u64 = |from| [_mm_loadu_si128(from.cast()), _mm_loadu_si128(from.add(2).cast())],
+            store_u64 = |to, value| {
+                _mm_storeu_si128(to.cast(), value[0]);
+                _mm_storeu_si128(to.add(2).cast(), value[1]);
+            };
+    }
 
     instructions! {
         splat(value: f32) -> __m128 = _mm_set1_ps(value);
@@ -227,96 +222,6 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
-    fn load_f32(self, from: &[f32]) -> __m128 {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[f32; WIDTH] = whole;
-        // SAFETY: SSE2 is there, and the array has four elements; they need not be aligned.
-        unsafe { _mm_loadu_ps(whole.as_ptr()) }
-    }
-
-    #[inline(always)]
-    fn store_f32(self, value: __m128, to: &mut [f32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            // SAFETY: SSE2 is there, and the array has four elements; they need not be aligned.
-            unsafe { _mm_storeu_ps(whole.as_mut_ptr(), value) }
-        } else {
-            let mut array = [0.0; WIDTH];
-            // SAFETY: as above.
-            unsafe { _mm_storeu_ps(array.as_mut_ptr(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u32(self, from: &[u32]) -> __m128i {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u32; WIDTH] = whole;
-        // SAFETY: SSE2 is there, and the array has four elements; they need not be aligned.
-        unsafe { _mm_loadu_si128(whole.as_ptr().cast()) }
-    }
-
-    #[inline(always)]
-    fn store_u32(self, value: __m128i, to: &mut [u32]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            // SAFETY: SSE2 is there, and the array has four elements; they need not be aligned.
-            unsafe { _mm_storeu_si128(whole.as_mut_ptr().cast(), value) }
-        } else {
-            let mut array = [0; WIDTH];
-            // SAFETY: as above.
-            unsafe { _mm_storeu_si128(array.as_mut_ptr().cast(), value) }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
-    fn load_u64(self, from: &[u64]) -> [__m128i; 2] {
-        let part;
-        let whole = if let Some(whole) = from.first_chunk() {
-            whole
-        } else {
-            part = self::part(from);
-            &part
-        };
-        let whole: &[u64; WIDTH] = whole;
-        let first = whole.as_ptr();
-        // SAFETY: SSE2 is there, and the array has four elements, two a register; they need not be aligned.
-        unsafe { [_mm_loadu_si128(first.cast()), _mm_loadu_si128(first.add(2).cast())] }
-    }
-
-    #[inline(always)]
-    fn store_u64(self, value: [__m128i; 2], to: &mut [u64]) {
-        if let Some(whole) = to.first_chunk_mut::<WIDTH>() {
-            let first = whole.as_mut_ptr();
-            // SAFETY: SSE2 is there, and the array has four elements, two a register; they need not be aligned.
-            unsafe {
-                _mm_storeu_si128(first.cast(), value[0]);
-                _mm_storeu_si128(first.add(2).cast(), value[1]);
-            }
-        } else {
-            let mut array = [0; WIDTH];
-            let first = array.as_mut_ptr();
-            // SAFETY: as above.
-            unsafe {
-                _mm_storeu_si128(first.cast(), value[0]);
-                _mm_storeu_si128(first.add(2).cast(), value[1]);
-            }
-            store_part(array, to);
-        }
-    }
-
-    #[inline(always)]
     fn gather_f32(self, table: &[f32], index: __m128i) -> __m128 {
         let [a, b, c, d, ..] =
             self.array_u32(index).map(|index| table.get(index as usize).copied().unwrap_or(0.0));
@@ -338,13 +243,14 @@ impl Lanes for Sse2 {
 
     #[inline(always)]
     fn mirrored(self, first: &[f32; 16], rest: &[f32; 16], part: usize) -> __m128 {
-        // SAFETY: SSE2 is there; elements 12 … 15 or 13 − part … 16 − part of sixteen are read.
+        let part = part & 12;
+        // SAFETY: SSE2 is there; elements 12 … 15 or, for a part of 4, 8 or 12, 13 − part … 16 − part of sixteen are read.
         unsafe {
             if part == 0 {
                 let rest = _mm_loadu_ps(rest.as_ptr().add(12));
                 _mm_move_ss(_mm_shuffle_ps::<0b01_10_11_00>(rest, rest), _mm_loadu_ps(first.as_ptr()))
             } else {
-                let rest = _mm_loadu_ps(rest.as_ptr().add(13 - (part & 12)));
+                let rest = _mm_loadu_ps(rest.as_ptr().add(13 - part));
                 _mm_shuffle_ps::<0b00_01_10_11>(rest, rest)
             }
         }
@@ -388,10 +294,12 @@ impl Lanes for Sse2 {
             let [first, second] = gather_pairs(table, index, WIDTH);
             return [self.load_u32(&first), self.load_u32(&second)];
         };
-        // SAFETY: SSE2 is there, and each pair has 64 bits.
+        // SAFETY: SSE2 is there, and each pair has 64 bits, which need not be aligned.
         unsafe {
             let two = |lower: &[u32; 2], upper: &[u32; 2]| {
-                _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(lower.as_ptr().cast()), upper.as_ptr().cast()))
+                let (lower, upper) =
+                    (_mm_loadl_epi64(lower.as_ptr().cast()), _mm_loadl_epi64(upper.as_ptr().cast()));
+                _mm_castsi128_ps(_mm_unpacklo_epi64(lower, upper))
             };
             let (ab, cd) = (two(a, b), two(c, d));
             [

@@ -135,7 +135,7 @@ fn by_falling_count(discs: usize, count: impl Fn(usize) -> u32, order: &mut [u8;
     while largest >> shift >= KEYS {
         shift += 1;
     }
-    // From the highest down, so that the first key is that of no neighbours at all, the last place.
+    // Those with the most neighbours have the lowest key.
     let key = |count: u32| (KEYS - (count >> shift)) as usize;
     let mut ends = [0_u16; KEYS as usize + 1];
     let mut filled = 0;

@@ -1,6 +1,6 @@
 //! The forces of pairs in wide lanes, bit for bit those of [`PairForce`].
 //!
-//! Sixteen discs and a neighbour of each are looked at a time. What is rare in a lane – a distance so small that the
+//! As many discs as there are lanes, and a neighbour of each, are looked at a time. What is rare in a lane – a distance so small that the
 //! force no longer grows, or so near the cut-off that rounding decides – is left to the core's own function.
 //!
 //! ```
@@ -214,7 +214,7 @@ impl Add<'_> {
         // Through memory: to take registers apart would take longer.
         let forces = black_box([lanes.array_u64(force[0]), lanes.array_u64(force[1])]);
         for ((&disc, &x), &y) in discs.iter().zip(&forces[0]).zip(&forces[1]) {
-            self.add_to(disc, (-(x as i64), -(y as i64)));
+            self.add_to(disc, ((x as i64).wrapping_neg(), (y as i64).wrapping_neg()));
         }
     }
 
