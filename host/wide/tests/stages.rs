@@ -15,10 +15,10 @@ use meniscus_wide::stages::Wide;
 
 type SmallEngine = Engine<64, 300>;
 
-/// Numbers of pieces and steps: all of them in a release build, or if the long tests are asked for.
+/// Numbers of pieces and steps: all of them in a release build on x86-64, or if the long tests are asked for.
 fn extent() -> (&'static [usize], usize) {
-    let is_long =
-        !cfg!(debug_assertions) || std::env::var_os("MENISCUS_LONG_TESTS").is_some_and(|value| value == "1");
+    let is_long = cfg!(all(target_arch = "x86_64", not(debug_assertions)))
+        || std::env::var_os("MENISCUS_LONG_TESTS").is_some_and(|value| value == "1");
     if is_long { (&[1, 2, 3, 4, 7, 16], 20) } else { (&[1, 3], 4) }
 }
 
