@@ -450,6 +450,7 @@ fn mark(rows: &mut Rows<'_>, numbers: Range<usize>, columns: usize) {
 }
 
 #[test]
+#[cfg_attr(target_family = "wasm", ignore = "there are no threads")]
 fn rows_have_blocks_of_their_own() {
     let (pitch, groups) = (5 * Rows::TOGETHER, 3);
     let mut blocks = vec![Sixteen::ZERO; pitch * groups + 7];
