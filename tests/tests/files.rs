@@ -1,8 +1,9 @@
 //! Files: the bits come back, what is wrong is named, and nothing makes a reader panic.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-use meniscus::files::extended_xyz::{self, Frame, FrameChoice};
+use meniscus::files::extended_xyz::{self, FrameChoice};
 use meniscus::files::state::{State, StateError};
+use meniscus::files::trajectory::Frame;
 use meniscus::files::{FileError, atomic, csv, read_positions};
 use meniscus::observables::clusters::Clusters;
 use meniscus::start;
@@ -26,8 +27,7 @@ fn any_positions() -> impl Strategy<Value = Vec<Position>> {
 }
 
 fn frame(positions: &[Position]) -> Frame<'_> {
-    let (time_over_jeans, strengths, clustered) = (None, &[][..], None);
-    Frame { step: 0, time: 0, time_over_jeans, time_step: 0.001, positions, strengths, clustered }
+    Frame { time_step: 0.001, positions, ..Frame::default() }
 }
 
 fn frames(torus: &Torus, all: &[Frame<'_>]) -> Vec<u8> {

@@ -22,6 +22,16 @@ pub enum FileError {
         /// What the system says.
         problem: std::io::Error,
     },
+    /// It has less in it than a checkpoint says that was on the disk.
+    #[error("{}: found {found}, the checkpoint says that {expected} were written: the file was cut or replaced", path.display())]
+    Extent {
+        /// The file.
+        path: PathBuf,
+        /// How much is there.
+        found: String,
+        /// How much should be.
+        expected: String,
+    },
     /// Its name does not tell a format of positions.
     #[error("{}: no known ending for positions: use .csv, .xyz, .extxyz or .state", path.display())]
     Ending {

@@ -1,7 +1,7 @@
 //! Trajectories as extended XYZ, which OVITO and ASE open.
 //!
 //! A frame is a line with the number of discs, a line of `key=value`, and a line for each disc. Written
-//! are the box as `Lattice`, the columns as `Properties`, then `pbc`, `step`, `time` (R0²/D),
+//! are the box as `Lattice`, the columns as `Properties`, then `pbc`, `step`, `time` (R0²/D; exact below 8192),
 //! `time_over_jeans` and `dt`, the length of the next step (R0²/D). The columns are the species `X`, which to ASE is no chemical element;
 //! the position in R0 with digits that give the same bits again, and z = 0; the id; the capillary strength unless
 //! all are 1; and perhaps whether the disc belongs to a cluster (1 or 0).
@@ -10,20 +10,13 @@
 //! `Lattice` has to be that of the box; `id`, `strength`, `step` and `time` count if there; the rest is passed over.
 //!
 //! ```
-//! use meniscus::files::extended_xyz::{Frame, FrameChoice, parse, write_frame};
+//! use meniscus::files::extended_xyz::{FrameChoice, parse, write_frame};
+//! use meniscus::files::trajectory::Frame;
 //! use meniscus_core::torus::{Position, Torus};
 //!
 //! let torus = Torus::new(8.0).unwrap();
 //! let positions = [Position::from_bits(1 << 31, 1 << 30)];
-//! let frame = Frame {
-//!     step: 3,
-//!     time: 1 << 39,
-//!     time_over_jeans: None,
-//!     time_step: 0.001,
-//!     positions: &positions,
-//!     strengths: &[],
-//!     clustered: None,
-//! };
+//! let frame = Frame { step: 3, time: 1 << 39, time_step: 0.001, positions: &positions, ..Frame::default() };
 //! let mut text = Vec::new();
 //! write_frame(&mut text, &torus, &frame).unwrap();
 //! assert_eq!(
@@ -39,8 +32,8 @@ use super::error::quoted;
 use super::identities::{Rows, coordinate, strength};
 use super::lines::{Lines, Place};
 use super::state::State;
+use super::trajectory::Frame;
 use super::{FileError, FormatError, read_with};
-use crate::observables::clusters::Clusters;
 use crate::strengths;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::{TIME_UNITS, time_from_units};
@@ -50,25 +43,6 @@ use std::path::Path;
 /// The relative difference up to which the side of a `Lattice` is that of the box: programs print as few
 /// as ten digits.
 const SIDE_TOLERANCE: f64 = 1e-9;
-
-/// A state of a run as it is written.
-#[derive(Clone, Copy, Debug)]
-pub struct Frame<'a> {
-    /// Steps made.
-    pub step: u64,
-    /// Time, unit 2⁻⁴⁰ R0²/D. Exact in the file below 2⁵³ units, 8192 R0²/D.
-    pub time: u64,
-    /// Time in Jeans' times, where there is one.
-    pub time_over_jeans: Option<f64>,
-    /// Length of the next step, R0²/D.
-    pub time_step: f64,
-    /// Positions in id order.
-    pub positions: &'a [Position],
-    /// Capillary strengths in id order, unit 2⁻²⁰; may be empty if all are 1.
-    pub strengths: &'a [i32],
-    /// The clusters, if they are to be in the file.
-    pub clustered: Option<&'a Clusters>,
-}
 
 /// Appends `frame` to `output`.
 ///

@@ -3,6 +3,7 @@
 //! - [`csv`]: a table with columns `x`, `y` and perhaps `id` and `strength`
 //! - [`extended_xyz`]: trajectories for OVITO and ASE
 //! - [`state`]: the canonical bytes of a state
+//! - [`trajectory`]: files to which a run appends frames, of any format
 //! - [`atomic`]: a file is there whole or not at all
 //!
 //! ```
@@ -24,6 +25,7 @@ pub mod extended_xyz;
 mod identities;
 mod lines;
 pub mod state;
+pub mod trajectory;
 
 pub use error::{FileError, FormatError};
 

@@ -2,7 +2,7 @@
 
 use super::{Outcome, Row, RunError, Stop};
 use crate::configuration::{Configuration, Force};
-use crate::files::extended_xyz::{Frame, write_frame};
+use crate::files::trajectory::{Format, Frame, Trajectory};
 use crate::files::{atomic::write_atomically, csv, state::State};
 use crate::observables::clusters::Clusters;
 use crate::simulation::Simulation;
@@ -46,7 +46,7 @@ pub(super) struct Directory {
     path: PathBuf,
     torus: Torus,
     observables: Growing,
-    trajectory: Growing,
+    trajectory: Trajectory,
     begun: Instant,
     begun_at: u64,
 }
@@ -66,7 +66,11 @@ impl Directory {
         observables.append(|file| writeln!(file, "{}", Row::HEADER))?;
         let begun_at = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         Ok(Self {
-            trajectory: Growing::create(path.join("trajectory.xyz"))?,
+            trajectory: Trajectory::create(
+                &path.join(Format::ExtendedXyz.file_name()),
+                Format::ExtendedXyz,
+                &simulation.torus,
+            )?,
             path: path.to_owned(),
             torus: simulation.torus,
             observables,
@@ -84,8 +88,7 @@ impl Directory {
     }
 
     pub(super) fn write_frame(&mut self, frame: &Frame<'_>) -> Result<(), RunError> {
-        let torus = self.torus;
-        self.trajectory.append(|file| write_frame(file, &torus, frame))
+        Ok(self.trajectory.append(frame)?)
     }
 
     /// Draws the `index`-th snapshot, clustered discs in red.

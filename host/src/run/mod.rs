@@ -21,7 +21,7 @@ pub use schedule::Schedule;
 use crate::configuration::Output;
 use crate::engine::{EngineError, MeshReuse};
 use crate::files::FileError;
-use crate::files::extended_xyz::Frame;
+use crate::files::trajectory::Frame;
 use crate::golden::Golden;
 use crate::observables::clusters::Clusters;
 use crate::observables::energy::{Energies, PotentialEnergy};
@@ -213,7 +213,10 @@ impl Run {
                 time: clock.time,
                 time_over_jeans,
                 time_step: time_from_units(length),
+                largest_force: next_step
+                    .map(|(_, force)| force_from_units(i64::try_from(force).unwrap_or(i64::MAX))),
                 positions: &positions,
+                crossings: &[],
                 strengths: &strengths,
                 clustered: Some(&clusters),
             })?;

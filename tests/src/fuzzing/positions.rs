@@ -1,6 +1,7 @@
 //! Files of positions.
 
-use meniscus::files::extended_xyz::{self, Frame, FrameChoice};
+use meniscus::files::extended_xyz::{self, FrameChoice};
+use meniscus::files::trajectory::Frame;
 use meniscus::files::{csv, state::State};
 use meniscus::strengths::all_one;
 use meniscus_core::torus::Torus;
@@ -45,8 +46,7 @@ fn check_texts(state: &State) {
         assert_eq!(again.ok(), Some(State { step: 0, time: 0, ..told.clone() }), "{text}");
 
         let (step, time) = (*step, *time);
-        let (time_over_jeans, time_step, clustered) = (None, 0.001, None);
-        let frame = Frame { step, time, time_over_jeans, time_step, positions, strengths, clustered };
+        let frame = Frame { step, time, time_step: 0.001, positions, strengths, ..Frame::default() };
         let mut text = Vec::new();
         assert!(extended_xyz::write_frame(&mut text, &torus, &frame).is_ok());
         let again = extended_xyz::parse(Cursor::new(&text), &torus, FrameChoice::Last);
