@@ -126,7 +126,7 @@ impl fmt::Display for Difference {
             Culprit::Time(expected, found) => {
                 return write!(
                     formatter,
-                    "step {step}: the time differs: expected {} R0²/D ({expected}·2⁻⁴⁰), found {} ({found}·2⁻⁴⁰)",
+                    "step {step}: the time differs: expected {} R0^2/D ({expected} * 2^-40), found {} ({found} * 2^-40)",
                     time_from_units(*expected),
                     time_from_units(*found)
                 );

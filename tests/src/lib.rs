@@ -9,6 +9,7 @@ pub mod figures;
 pub mod fits;
 pub mod fuzzing;
 pub mod modes;
+pub mod program;
 pub mod reference;
 pub mod schemes;
 pub mod states;

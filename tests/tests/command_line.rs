@@ -249,8 +249,10 @@ fn p3m_says_what_it_chose_and_what_is_written_repeats_it() {
     let without_pictures = ["--set", "output.snapshots=0", "--until", "0.01"];
     let p3m =
         [&["--set", "force.method=p3m", "--set", "mesh.assignment=order-5"], &without_pictures[..]].concat();
-    let output =
-        start(folder.path(), &[&["run", "small.toml", "--out", "first", "--every", "2"], &p3m[..]].concat());
+    let output = start(
+        folder.path(),
+        &[&["run", "-v", "small.toml", "--out", "first", "--every", "2"], &p3m[..]].concat(),
+    );
     let told = String::from_utf8(output.stderr).unwrap();
     let line = told.lines().find(|line| line.starts_with("force: ")).unwrap();
     assert!(
@@ -278,7 +280,7 @@ fn p3m_says_what_it_chose_and_what_is_written_repeats_it() {
         );
     }
     assert!(succeed(folder.path(), &["verify", "first/golden.toml"]).starts_with("equal: "));
-    let pm = ["run", "first/config.toml", "--set", "force.method=pm", "--out", "third"];
+    let pm = ["run", "-v", "first/config.toml", "--set", "force.method=pm", "--out", "third"];
     let told = String::from_utf8(start(folder.path(), &pm).stderr).unwrap();
     assert!(
         told.contains("force: pm: grid 32 (spacing 1.5 R0), order-5, influence paper, gradient spectral\n"),

@@ -1,9 +1,9 @@
 //! `meniscus digest DIR|FILE`
 
-use super::{CommandError, Verdict};
+use super::{CommandError, Reporter, Verdict};
 use crate::files::state::State;
+use meniscus_core::units::time_from_units;
 use sha2::{Digest as _, Sha256};
-use std::io::Write;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -13,7 +13,7 @@ pub(super) struct Arguments {
     path: PathBuf,
 }
 
-pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
+pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let mut path = arguments.path.clone();
     if path.is_dir() {
         path.push("final.state");
@@ -21,10 +21,18 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
             return Err(CommandError::NoState(arguments.path.clone()));
         }
     }
-    let bytes = State::read(&path)?.to_bytes();
-    let hash = Sha256::digest(&bytes);
-    write!(output, "{} ", bytes.len())?;
-    hash.iter().try_for_each(|byte| write!(output, "{byte:02x}"))?;
-    writeln!(output)?;
+    let state = State::read(&path)?;
+    let bytes = state.to_bytes();
+    let hash: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    reporter.text(&format!("{} {hash}\n", bytes.len()))?;
+    reporter.json(|| {
+        serde_json::json!({
+            "file": path.display().to_string(),
+            "step": state.step,
+            "time": time_from_units(state.time),
+            "length": bytes.len(),
+            "digest": hash,
+        })
+    })?;
     Ok(Verdict::Ok)
 }

@@ -1,15 +1,15 @@
 //! `meniscus forces CONFIG|PRESET --positions FILE [--out FILE.csv]`
 
-use super::{CommandError, Source, Verdict, say};
+use super::{CommandError, Reporter, Source, Verdict};
 use crate::configuration::Configuration;
 use crate::engine::Engine;
 use crate::files::{atomic::write_atomically, read_positions, state::State};
 use crate::simulation::torus;
 use crate::strengths::Strengths;
 use meniscus_core::dynamics::{Clock, Disc};
+use meniscus_core::torus::Position;
 use std::fmt::Write as _;
-use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -24,19 +24,29 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 }
 
-pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
+pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let configuration = arguments.source.read([])?;
-    say(&configuration.scheme_line());
-    let table = table_of_forces(&configuration, &arguments.positions)?;
+    reporter.detail(&configuration.scheme_line());
+    let rows = forces(&configuration, &arguments.positions)?;
     match &arguments.out {
-        Some(path) => write_atomically(path, table.as_bytes())?,
-        None => output.write_all(table.as_bytes())?,
+        Some(path) => {
+            write_atomically(path, table(&rows).as_bytes())?;
+            reporter
+                .json(|| serde_json::json!({ "file": path.display().to_string(), "discs": rows.len() }))?;
+        }
+        None => {
+            reporter.text(&table(&rows))?;
+            reporter.json(|| {
+                let column = |index: usize| rows.iter().map(|row| row[index]).collect::<Vec<f64>>();
+                serde_json::json!({ "x": column(0), "y": column(1), "fx": column(2), "fy": column(3) })
+            })?;
+        }
     }
     Ok(Verdict::Ok)
 }
 
-/// One row a disc: `id,x,y,fx,fy`.
-fn table_of_forces(configuration: &Configuration, path: &std::path::Path) -> Result<String, CommandError> {
+/// One row a disc, in the order of ids: x and y in R0, the force along x and y in kBT/R0.
+fn forces(configuration: &Configuration, path: &Path) -> Result<Vec<[f64; 4]>, CommandError> {
     let torus = torus(configuration)?;
     let State { positions, strengths, .. } = read_positions(path, &torus)?;
     let strengths = strengths.map_or_else(|| configuration.strengths.clone(), Strengths::OfFile);
@@ -46,11 +56,18 @@ fn table_of_forces(configuration: &Configuration, path: &std::path::Path) -> Res
         strength: strengths.of(id),
     });
     let forces = Engine::with_ids(&configuration.parameters(), Clock::START, discs)?.forces()?;
+    let row = |(position, [force_x, force_y]): (&Position, [f64; 2])| {
+        [torus.coordinate(position.x), torus.coordinate(position.y), force_x, force_y]
+    };
+    Ok(positions.iter().zip(forces).map(row).collect())
+}
+
+/// `id,x,y,fx,fy`.
+fn table(rows: &[[f64; 4]]) -> String {
     let mut table = String::from("id,x,y,fx,fy\n");
-    for (id, (position, [force_x, force_y])) in positions.iter().zip(forces).enumerate() {
-        let (x, y) = (torus.coordinate(position.x), torus.coordinate(position.y));
+    for (id, [x, y, force_x, force_y]) in rows.iter().enumerate() {
         // Writing to a String cannot fail.
         let _ = writeln!(table, "{id},{x},{y},{force_x},{force_y}");
     }
-    Ok(table)
+    table
 }

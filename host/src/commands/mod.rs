@@ -1,12 +1,13 @@
 //! The command line: one file a command, each from parsed arguments to an exit code.
 //!
-//! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error).
+//! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error); a closed pipe changes none of them.
 
 mod digest;
 mod forces;
 mod machinery;
 mod presets;
 mod progress;
+mod reporter;
 mod run;
 mod verify;
 
@@ -17,7 +18,7 @@ use crate::golden::GoldenError;
 use crate::run::RunError;
 use crate::simulation::SimulationError;
 use clap::{Args, Parser, Subcommand};
-use std::io::{ErrorKind, Write};
+use reporter::{Reporter, Reporting, say};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use thiserror::Error;
@@ -26,6 +27,8 @@ use thiserror::Error;
 #[derive(Debug, Parser)]
 #[command(name = "meniscus", version, max_term_width = 100)]
 struct Arguments {
+    #[command(flatten)]
+    reporting: Reporting,
     #[command(subcommand)]
     command: Command,
 }
@@ -102,28 +105,22 @@ enum Verdict {
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let output = &mut std::io::stdout().lock();
+    let reporter = &mut Reporter::new(arguments.reporting, output);
     let result = match &arguments.command {
-        Command::Run(arguments) => run::run(arguments, output),
-        Command::Forces(arguments) => forces::run(arguments, output),
-        Command::Digest(arguments) => digest::run(arguments, output),
-        Command::Verify(arguments) => verify::run(arguments, output),
-        Command::Presets(arguments) => presets::run(arguments, output),
+        Command::Run(arguments) => run::run(arguments, reporter),
+        Command::Forces(arguments) => forces::run(arguments, reporter),
+        Command::Digest(arguments) => digest::run(arguments, reporter),
+        Command::Verify(arguments) => verify::run(arguments, reporter),
+        Command::Presets(arguments) => presets::run(arguments, reporter),
     };
-    match result.and_then(|verdict| output.flush().map(|()| verdict).map_err(CommandError::from)) {
+    match result {
         Ok(Verdict::Ok) => ExitCode::SUCCESS,
         Ok(Verdict::Different) => ExitCode::from(1),
-        // Whoever reads our output has seen enough.
-        Err(CommandError::Output(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
             say(&format!("error: {error}"));
             ExitCode::from(2)
         }
     }
-}
-
-/// Writes a line to standard error; nobody can be told if that fails.
-fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 impl Source {

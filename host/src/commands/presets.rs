@@ -1,8 +1,7 @@
 //! `meniscus presets [NAME]`
 
-use super::{CommandError, Verdict};
-use crate::configuration::{PRESETS, preset};
-use std::io::Write;
+use super::{CommandError, Reporter, Verdict};
+use crate::configuration::{PRESETS, Preset, preset};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -10,13 +9,20 @@ pub(super) struct Arguments {
     name: Option<String>,
 }
 
-pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
+pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     match &arguments.name {
-        Some(name) => write!(output, "{}", preset(name)?.complete()?)?,
+        Some(name) => {
+            let configuration = preset(name)?.complete()?;
+            reporter.text(&configuration)?;
+            reporter.json(|| serde_json::json!({ "name": name, "configuration": configuration }))?;
+        }
         None => {
-            for preset in PRESETS {
-                writeln!(output, "{:<12}{}", preset.name, preset.summary)?;
-            }
+            let line = |preset: &Preset| format!("{:<12}{}\n", preset.name, preset.summary);
+            reporter.text(&PRESETS.iter().map(line).collect::<String>())?;
+            let object =
+                |preset: &Preset| serde_json::json!({ "name": preset.name, "summary": preset.summary });
+            reporter
+                .json(|| serde_json::json!({ "presets": PRESETS.iter().map(object).collect::<Vec<_>>() }))?;
         }
     }
     Ok(Verdict::Ok)

@@ -1,6 +1,6 @@
-//! Progress of a run: a bar on a terminal, a line now and then elsewhere.
+//! Progress of a run: a bar on a terminal, a line now and then elsewhere, nothing with `--quiet`.
 
-use super::say;
+use super::Reporter;
 use crate::simulation::Simulation;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -20,9 +20,10 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new(simulation: &Simulation) -> Self {
+    pub(super) fn new(simulation: &Simulation, reporter: &Reporter<'_>) -> Self {
         let clock = simulation.engine.clock();
-        let bar = std::io::stderr().is_terminal().then(|| {
+        let on_terminal = reporter.tells_notes() && std::io::stderr().is_terminal();
+        let bar = on_terminal.then(|| {
             let style =
                 ProgressStyle::with_template("{wide_bar} {msg}").unwrap_or(ProgressStyle::default_bar());
             ProgressBar::new(simulation.end()).with_style(style)
@@ -32,7 +33,7 @@ impl Progress {
     }
 
     /// Shows where the run is, if it is time to.
-    pub(super) fn show(&mut self, simulation: &Simulation) {
+    pub(super) fn show(&mut self, simulation: &Simulation, reporter: &Reporter<'_>) {
         let interval = if self.bar.is_some() { REFRESH } else { LINE_INTERVAL };
         if self.shown.elapsed() < interval {
             return;
@@ -44,7 +45,7 @@ impl Progress {
                 bar.set_position(simulation.engine.clock().time);
                 bar.set_message(message);
             }
-            None => say(&message),
+            None => reporter.note(&message),
         }
     }
 
@@ -64,7 +65,7 @@ impl Progress {
         let time = match simulation.time_over_jeans() {
             Some(time) => format!("t = {time:.3} of {until} T"),
             None => {
-                format!("t = {:.3} of {until} R0²/D", meniscus_core::units::time_from_units(clock.time))
+                format!("t = {:.3} of {until} R0^2/D", meniscus_core::units::time_from_units(clock.time))
             }
         };
         format!("step {}, {time}, {rate:.0} steps/s, {} left", clock.step, duration(eta))

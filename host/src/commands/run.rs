@@ -2,13 +2,12 @@
 
 use super::machinery::MachineryArguments;
 use super::progress::Progress;
-use super::{CommandError, Source, Verdict, say};
+use super::{CommandError, Reporter, Source, Verdict};
 use crate::run::{GOLDEN_INTERVAL, GoldenRequest, Outcome, Run, Stop};
 use crate::simulation::Simulation;
 use crate::strengths::{Strengths, all_one};
 use meniscus_core::units::time_from_units;
 use signal_hook::consts::{SIGINT, SIGTERM};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -40,7 +39,7 @@ pub(super) struct Arguments {
     every: u64,
 }
 
-pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
+pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let seed = arguments.seed.map(|seed| format!("seed={seed}"));
     let until = arguments.until.map(|until| format!("time.until={}", toml_edit::Value::from(until)));
     let configuration = arguments.source.read(seed.into_iter().chain(until))?;
@@ -53,35 +52,40 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
         None => GoldenRequest { every: arguments.every, ..GoldenRequest::in_directory(&directory) },
     };
     let simulation = Simulation::with_machinery(configuration, arguments.machinery.read()?)?;
-    announce(&simulation, &directory);
+    announce(&simulation, &directory, reporter);
     let density = simulation.configuration.mean_density();
     let watch = stop_signal()?;
-    let mut progress = Progress::new(&simulation);
+    let first_step = simulation.engine.clock().step;
+    let mut progress = Progress::new(&simulation, reporter);
     let run = Run::create(simulation, &directory, golden)?;
     let begun = Instant::now();
     let outcome = run.to_end(|simulation| {
-        progress.show(simulation);
+        progress.show(simulation, reporter);
         if watch.load(Ordering::Relaxed) {
             return Some(Stop::Interrupted);
         }
         arguments.max_wall.filter(|&limit| begun.elapsed() >= limit).map(|_| Stop::WallTime)
     });
     progress.finish();
-    conclude(&outcome?, density, output)?;
+    let outcome = outcome?;
+    let seconds = begun.elapsed().as_secs_f64();
+    let steps = outcome.clock.step - first_step;
+    reporter.detail(&format!("{steps} steps in {seconds:.1} s, {:.0} steps/s", steps as f64 / seconds));
+    conclude(&outcome, density, reporter)?;
     Ok(Verdict::Ok)
 }
 
 /// Tells what is about to be run.
-fn announce(simulation: &Simulation, directory: &Path) {
+fn announce(simulation: &Simulation, directory: &Path, reporter: &Reporter<'_>) {
     let configuration = &simulation.configuration;
     let system = &configuration.system;
-    say(&format!(
-        "{} discs in a box of {} R0, V0 = {} kBT, λ = {} R0, seed {}",
+    reporter.detail(&format!(
+        "{} discs in a box of {} R0, V0 = {} kBT, lambda = {} R0, seed {}",
         system.particles, system.side, system.capillary_strength, system.capillary_length, configuration.seed
     ));
-    say(&configuration.scheme_line());
+    reporter.detail(&configuration.scheme_line());
     if let Some(line) = configuration.mesh_refresh_line() {
-        say(&line);
+        reporter.note(&line);
     }
     let (strengths, count) = (&configuration.strengths, system.particles);
     if !all_one(strengths.repeated()) {
@@ -89,24 +93,25 @@ fn announce(simulation: &Simulation, directory: &Path) {
             Strengths::Pattern(_) => "the configuration",
             Strengths::OfFile(_) => "the start's file",
         };
-        say(&format!("capillary strengths f of {whose}, <f^2> = {}", strengths.mean_square(count)));
+        reporter
+            .detail(&format!("capillary strengths f of {whose}, <f^2> = {}", strengths.mean_square(count)));
     }
     if let Some(jeans) = configuration.jeans_time() {
         let seconds = configuration.seconds_per_time_unit().map(|unit| format!(" = {:.0} s", jeans * unit));
-        say(&format!("Jeans' time T = {jeans:.4} R0²/D{}", seconds.unwrap_or_default()));
+        reporter.detail(&format!("Jeans' time T = {jeans:.4} R0^2/D{}", seconds.unwrap_or_default()));
     }
-    say(&format!("results in {}", directory.display()));
+    reporter.note(&format!("results in {}", directory.display()));
 }
 
 /// Tells how the run ended; if early, how to go on with a density of `density` (R0⁻²).
-fn conclude(outcome: &Outcome, density: f64, output: &mut impl Write) -> std::io::Result<()> {
+fn conclude(outcome: &Outcome, density: f64, reporter: &mut Reporter<'_>) -> std::io::Result<()> {
     if let Some(stop) = outcome.stop {
         let why = match stop {
             Stop::Interrupted => "interrupted",
             Stop::WallTime => "the wall time is over",
         };
         let file = |name| quoted(&outcome.directory.join(name).display().to_string());
-        say(&format!(
+        reporter.note(&format!(
             "{why}; to go on: meniscus run {} --set start.kind=file --set start.path={} \
              --set start.density={density:?}",
             file("config.toml"),
@@ -119,21 +124,35 @@ fn conclude(outcome: &Outcome, density: f64, output: &mut impl Write) -> std::io
                 "rms error of a force as old as it got {error:.1e}, relative to the rms force of the mesh"
             )
         });
-        say(&format!(
+        reporter.note(&format!(
             "force.mesh_refresh: {} transforms in {} steps, {:.1} % saved; {error}",
             reuse.transforms,
             reuse.steps,
             100.0 * reuse.saved()
         ));
     }
-    writeln!(
-        output,
-        "step {}, t = {} R0²/D, {} bytes, digest {}",
-        outcome.clock.step,
-        time_from_units(outcome.clock.time),
-        outcome.digest.length,
-        outcome.digest
-    )
+    let (step, time) = (outcome.clock.step, time_from_units(outcome.clock.time));
+    let (length, digest) = (outcome.digest.length, outcome.digest);
+    reporter.text(&format!("step {step}, t = {time} R0^2/D, {length} bytes, digest {digest}\n"))?;
+    reporter.json(|| {
+        serde_json::json!({
+            "directory": outcome.directory.display().to_string(),
+            "ended": ended(outcome.stop),
+            "step": step,
+            "time": time,
+            "length": length,
+            "digest": digest.to_string(),
+        })
+    })
+}
+
+/// How it ended, as `run.json` has it.
+fn ended(stop: Option<Stop>) -> &'static str {
+    match stop {
+        None => "finished",
+        Some(Stop::Interrupted) => "interrupted",
+        Some(Stop::WallTime) => "wall time",
+    }
 }
 
 /// A flag that Ctrl-C and a request to terminate raise.

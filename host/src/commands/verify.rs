@@ -1,12 +1,11 @@
 //! `meniscus verify GOLDEN [--bisect]`
 
 use super::machinery::MachineryArguments;
-use super::{CommandError, Verdict};
+use super::{CommandError, Reporter, Verdict};
 use crate::configuration::Configuration;
 use crate::golden::{Difference, Golden};
 use crate::simulation::Simulation;
 use crate::verification::{compare, compare_with_core};
-use std::io::Write;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -21,7 +20,7 @@ pub(super) struct Arguments {
     machinery: MachineryArguments,
 }
 
-pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verdict, CommandError> {
+pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let golden = Golden::read(&arguments.golden)?;
     if golden.records.is_empty() {
         return Err(CommandError::GoldenRecords { path: arguments.golden.clone(), found: "no record" });
@@ -33,52 +32,57 @@ pub(super) fn run(arguments: &Arguments, output: &mut impl Write) -> Result<Verd
         Ok(Simulation::with_machinery(configuration, machinery)?)
     };
     let mut agreed = None;
-    let difference = compare(&golden, &mut simulation()?.engine, |record| agreed = Some(record.step))?;
+    let difference = compare(&golden, &mut simulation()?.engine, |record| {
+        agreed = Some(record.step);
+        reporter.detail(&format!("step {} is equal", record.step));
+    })?;
     let Some(difference) = difference else {
-        let steps = agreed.unwrap_or_default();
-        writeln!(output, "equal: {} records to step {steps}", golden.records.len())?;
+        let (count, step) = (golden.records.len(), agreed.unwrap_or_default());
+        reporter.text(&format!("equal: {count} records to step {step}\n"))?;
+        reporter.json(|| serde_json::json!({ "equal": true, "records": count, "step": step }))?;
         return Ok(Verdict::Ok);
     };
-    describe(&golden, agreed, &difference, output)?;
+    reporter.text(&describe(&golden, agreed, &difference))?;
+    let within = if arguments.bisect { bisect(simulation()?, difference.step)? } else { None };
     if arguments.bisect {
-        bisect(simulation()?, difference.step, agreed, output)?;
+        reporter.text(&describe_within(within.as_ref(), difference.step, agreed))?;
     }
+    reporter.json(|| {
+        serde_json::json!({
+            "equal": false,
+            "step": difference.step,
+            "difference": difference.to_string(),
+            "equal_to_step": agreed,
+            "minted_by": golden.version,
+            "bisected": arguments.bisect,
+            "contradiction": within.map(|difference| difference.to_string()),
+        })
+    })?;
     Ok(Verdict::Different)
 }
 
-fn describe(
-    golden: &Golden,
-    agreed: Option<u64>,
-    difference: &Difference,
-    output: &mut impl Write,
-) -> std::io::Result<()> {
-    writeln!(output, "different: {difference}")?;
-    match agreed {
-        Some(step) => writeln!(output, "equal up to the record of step {step}")?,
-        None => writeln!(output, "no record before it")?,
-    }
-    writeln!(output, "minted by meniscus {}, this is {}", golden.version, env!("CARGO_PKG_VERSION"))
+fn describe(golden: &Golden, agreed: Option<u64>, difference: &Difference) -> String {
+    let before = match agreed {
+        Some(step) => format!("equal up to the record of step {step}"),
+        None => "no record before it".to_owned(),
+    };
+    let (minted, this) = (&golden.version, env!("CARGO_PKG_VERSION"));
+    format!("different: {difference}\n{before}\nminted by meniscus {minted}, this is {this}\n")
 }
 
-fn bisect(
-    simulation: Simulation,
-    last: u64,
-    agreed: Option<u64>,
-    output: &mut impl Write,
-) -> Result<(), CommandError> {
-    match compare_with_core(simulation, last)? {
+fn bisect(simulation: Simulation, last: u64) -> Result<Option<Difference>, CommandError> {
+    Ok(compare_with_core(simulation, last)?)
+}
+
+fn describe_within(within: Option<&Difference>, last: u64, agreed: Option<u64>) -> String {
+    match within {
         Some(difference) => {
-            writeln!(
-                output,
-                "this program contradicts itself, the core with discs stored in reverse: {difference}"
-            )?;
+            format!("this program contradicts itself, the core with discs stored in reverse: {difference}\n")
         }
-        None => writeln!(
-            output,
+        None => format!(
             "this program agrees with itself at every step; the first difference lies in steps {} to {last}: \
-             mint these with --every 1 where the file came from to see which",
+             mint these with --every 1 where the file came from to see which\n",
             agreed.map_or(0, |step| step + 1)
-        )?,
+        ),
     }
-    Ok(())
 }
