@@ -3,7 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
 
 use meniscus_core::units::round_half_even;
-use meniscus_wide::lanes::{Kernel, Lanes, Level, Rows, Sixteen, combs, complex_of_sixteens};
+use meniscus_wide::lanes::{
+    Comb, Kernel, LOWER, Lanes, Level, REST, Rows, Runs, Sixteen, UPPER, combs, complex_of_sixteens,
+};
 use std::ops::Range;
 
 /// A SplitMix64 sequence.
@@ -403,6 +405,7 @@ impl Kernel for Apart {
             #[inline(always)]
             fn run<L: Lanes>(self, lanes: L) -> usize {
                 lanes.prefetch(&0);
+                lanes.prefetch(core::ptr::null::<u8>());
                 L::WIDTH
             }
         }
@@ -437,12 +440,56 @@ fn combs_have_every_block_once() {
     }
 }
 
+#[test]
+fn combs_of_some_blocks_are_inside_and_apart() {
+    let mut blocks = vec![Sixteen::ZERO; 10];
+    for (first, distance, there) in
+        [(0, 3, true), (1, 3, false), (0, 0, false), (9, usize::MAX, false), (usize::MAX, 1, false)]
+    {
+        assert_eq!(Comb::<4>::new(&mut blocks, first, distance).is_some(), there, "{first} {distance}");
+    }
+    let mut comb = Comb::<4>::new(&mut blocks, 0, 3).unwrap();
+    comb.get_mut::<3>().0[5] = 1.0;
+    assert_eq!(blocks[9].0[5], 1.0);
+}
+
+#[test]
+fn runs_are_where_they_say_and_inside() {
+    let numbers: Vec<u32> = (0..20).collect();
+    let up = Runs::<u32, 4, 2>::new(&numbers, 3, 5).unwrap();
+    assert_eq!(
+        [up.get::<0>(), up.get::<1>(), up.get::<2>(), up.get::<3>()],
+        [&[3, 4], &[8, 9], &[13, 14], &[18, 19]]
+    );
+    let down = Runs::<u32, 4, 1>::new(&numbers, 19, -6).unwrap();
+    assert_eq!([down.get::<0>(), down.get::<3>()], [&[19], &[1]]);
+    assert!(
+        Runs::<u32, 4, 3>::new(&numbers, 3, 5).is_none()
+            && Runs::<u32, 4, 1>::new(&numbers, 17, -6).is_none()
+    );
+    for distance in [isize::MIN, isize::MAX, isize::MAX / 2, isize::MIN / 3] {
+        for first in [0, 19, usize::MAX, usize::MAX / 2 + 1] {
+            assert!(Runs::<u32, 4, 1>::new(&numbers, first, distance).is_none(), "{first} {distance}");
+        }
+    }
+    // Of a part only that has to be inside, and what is not there is the nearest that is.
+    let lower = Runs::<u32, 4, 1, LOWER>::new(&numbers, 8, 10).unwrap();
+    assert_eq!([lower.get::<0>(), lower.get::<1>(), lower.get::<3>()], [&[8], &[18], &[18]]);
+    let upper = Runs::<u32, 4, 1, UPPER>::new(&numbers, 39, -10).unwrap();
+    assert_eq!([upper.get::<0>(), upper.get::<2>(), upper.get::<3>()], [&[19], &[19], &[9]]);
+    let rest = Runs::<u32, 4, 1, REST>::new(&numbers, 20, -5).unwrap();
+    assert_eq!([rest.get::<0>(), rest.get::<1>(), rest.get::<3>()], [&[15], &[15], &[5]]);
+    assert!(Runs::<u32, 4, 1, REST>::new(&numbers, 25, -5).is_none());
+}
+
 /// Marks every block of some rows with their numbers.
 fn mark(rows: &mut Rows<'_>, numbers: Range<usize>, columns: usize) {
     assert_eq!(rows.count(), numbers.len());
     for (row, number) in numbers.enumerate() {
         for column in 0..columns {
-            let block = rows.get_mut(row, column).unwrap();
+            let (mut blocks, _) = rows.row_and_next(row).unwrap();
+            let mut comb = blocks.comb::<1>(column, Rows::TOGETHER).unwrap();
+            let block = comb.get_mut::<0>();
             assert_eq!(block.0[0], 0.0, "row {number}, column {column} is not its own");
             block.0[0] = (1000 * number + column + 1) as f32;
         }
@@ -463,9 +510,23 @@ fn rows_have_blocks_of_their_own() {
     });
     assert_eq!(none.count(), 0);
     for (rows, count) in [(&mut first, 2), (&mut second, 3), (&mut none, 0)] {
-        for (row, column) in [(count, 0), (usize::MAX, 0), (0, columns), (0, usize::MAX)] {
-            assert!(rows.get(row, column).is_none() && rows.get_mut(row, column).is_none());
+        assert!(rows.row_and_next(count).is_none() && rows.row_and_next(usize::MAX).is_none());
+        let Some((mut row, _)) = rows.row_and_next(0) else { continue };
+        let together = Rows::TOGETHER;
+        for (column, distance) in [
+            (columns, together),
+            (usize::MAX, together),
+            (columns - together, together),
+            (0, usize::MAX - 7),
+            (0, 1),
+        ] {
+            assert!(row.shared().runs::<2>(column, distance).is_none(), "{column} {distance}");
+            assert!(row.comb::<2>(column, distance).is_none(), "{column} {distance}");
         }
+        assert!(row.comb::<2>(0, 0).is_none(), "two teeth in one place");
+        let runs = row.shared().runs::<3>(1, together).unwrap();
+        let marks = [&runs.get::<0>()[0], &runs.get::<1>()[0], &runs.get::<2>()[0]].map(|block| block.0[0]);
+        assert_eq!(marks.map(|mark| mark as usize % 1000), [2, 2 + together, 2 + 2 * together]);
     }
     for (place, block) in blocks.iter().enumerate() {
         let (group, row) = (place / pitch, place % pitch / Rows::TOGETHER);

@@ -6,18 +6,31 @@ use core::marker::PhantomData;
 /// `TEETH` blocks at equal distances, exclusively borrowed.
 #[derive(Debug)]
 pub struct Comb<'a, const TEETH: usize> {
-    first: *mut Sixteen,
-    distance: usize,
-    lifetime: PhantomData<&'a mut Sixteen>,
+    pub(super) first: *mut Sixteen,
+    pub(super) distance: usize,
+    pub(super) lifetime: PhantomData<&'a mut Sixteen>,
 }
 
-impl<const TEETH: usize> Comb<'_, TEETH> {
+impl<'a, const TEETH: usize> Comb<'a, TEETH> {
+    /// Blocks first + i · distance of a slice; none unless all are inside and different.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(blocks: &'a mut [Sixteen], first: usize, distance: usize) -> Option<Self> {
+        let last = distance.checked_mul(TEETH - 1)?.checked_add(first)?;
+        let inside = last < blocks.len() && distance > 0;
+        inside.then(|| Self {
+            first: blocks.as_mut_ptr().wrapping_add(first),
+            distance,
+            lifetime: PhantomData,
+        })
+    }
+
     /// Block `TOOTH`.
     #[inline(always)]
     #[must_use]
     pub fn get<const TOOTH: usize>(&self) -> &Sixteen {
         const { assert!(TOOTH < TEETH) };
-        // SAFETY: the blocks first + tooth · distance with tooth < TEETH are borrowed by this comb, see `combs`.
+        // SAFETY: the blocks first + tooth · distance with tooth < TEETH are borrowed by this comb, see `new`, `combs` and `RowMut::comb`.
         unsafe { &*self.first.add(TOOTH * self.distance) }
     }
 

@@ -43,6 +43,8 @@ mod moves;
 #[cfg(target_arch = "aarch64")]
 mod neon;
 mod portable;
+mod rows;
+mod runs;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod simd128;
 mod sixteen;
@@ -52,7 +54,9 @@ mod views;
 
 pub use combs::{Comb, combs};
 pub use level::{Kernel, Level};
-pub use sixteen::{Rows, Sixteen, complex_of_sixteens, complex_of_sixteens_mut};
+pub use rows::{Addresses, Row, RowMut, Rows};
+pub use runs::{ALL, LOWER, REST, Runs, UPPER};
+pub use sixteen::{Sixteen, complex_of_sixteens, complex_of_sixteens_mut};
 pub use views::{
     bits_of_fractions, bits_of_fractions_mut, bits_of_i32, bits_of_i32_mut, bits_of_i64, bits_of_i64_mut,
     parts_of_complex,
@@ -420,11 +424,10 @@ pub trait Lanes: Copy + Send + Sync + 'static {
         apart(kernel, self)
     }
 
-    /// Asks for the cache line in which something begins to be brought near before it is needed. Changes nothing else.
+    /// Asks for a cache line to be brought into the second cache, where there is an instruction for that: not into the
+    /// first, which what is being worked on needs for itself. There need not be anything at the address.
     #[inline(always)]
-    fn prefetch<T>(self, wanted: &T) {
-        self.prefetch_slice(core::slice::from_ref(wanted));
-    }
+    fn prefetch<T>(self, _address: *const T) {}
 }
 
 /// The pairs of a table at the first `width` indices, the first numbers and the second ones; 0 beyond its end.

@@ -310,6 +310,12 @@ impl Lanes for Sse2 {
     }
 
     #[inline(always)]
+    fn prefetch<T>(self, address: *const T) {
+        // SAFETY: every x86-64 has the instruction, which does nothing that can be seen, whatever the address.
+        unsafe { _mm_prefetch::<_MM_HINT_T1>(address.cast()) }
+    }
+
+    #[inline(always)]
     fn prefetch_slice<T>(self, elements: &[T]) {
         for offset in (0..size_of_val(elements)).step_by(64) {
             // SAFETY: every x86-64 has the instruction, which does nothing that can be seen; the address is inside the slice.

@@ -1,8 +1,10 @@
 //! The first sweep: columns of the mesh along y, two real ones as a complex line.
 
 use super::GROUP;
-use crate::lanes::{Kernel, Lanes, Level, Sixteen};
-use crate::transform::{Along, Complex, LineSink, Source, load, prefetch, store};
+use crate::lanes::{Comb, Kernel, Lanes, Level, Runs, Sixteen};
+use crate::transform::{
+    Along, Complex, Elements, LinePlaces, LineSink, Source, load, parts, prefetch, store,
+};
 use meniscus_core::grid::Grid;
 use meniscus_core::transform::Complex32;
 use rayon::prelude::*;
@@ -87,16 +89,16 @@ impl Kernel for Work<'_> {
         let ends = nyquist.iter_mut().zip(nyquist_after);
         for (x, ((left, right), (end, end_after))) in masses.zip(ends).enumerate() {
             let (left, right) = (left.as_chunks().0, right.as_chunks().0);
-            along.begin(lanes, scratch, &Masses { left, right, signed });
+            along.begin(lanes, scratch, Masses { left, right, signed });
             let next = x + 1;
             let place = next / GROUP * GROUP * pitch + next % GROUP;
             let next = Next {
-                left: masses_of(left_nodes, next, side),
-                right: masses_of(right_nodes, next, side),
-                first: first.get(place..).unwrap_or(&[]),
-                second: second.get(place..).unwrap_or(&[]),
+                left: left_nodes.as_ptr().wrapping_add(next * side),
+                right: right_nodes.as_ptr().wrapping_add(next * side),
+                first: first.as_ptr().wrapping_add(place),
+                second: second.as_ptr().wrapping_add(place),
             };
-            along.finish(lanes, scratch, &mut Spectrum { spectrum, next });
+            along.finish(lanes, scratch, Spectrum { spectrum, next });
             let place = x / GROUP * GROUP * pitch + x % GROUP;
             lanes.apart(Split { spectrum, first: &mut first[place..], second: &mut second[place..] });
             // Frequency M/2 is its own mirror.
@@ -113,17 +115,37 @@ fn split_own_mirror(re: f32, im: f32) -> (Complex32, Complex32) {
 }
 
 /// Two columns of node masses as a complex line.
+#[derive(Clone, Copy)]
 struct Masses<'a> {
     left: &'a [[u32; 16]],
     right: &'a [[u32; 16]],
     signed: bool,
 }
 
-impl Source for Masses<'_> {
+impl<'a> Source for Masses<'a> {
+    type Elements<const COUNT: usize> = MassRuns<'a, COUNT>;
+
     #[inline(always)]
-    fn load<L: Lanes>(&self, lanes: L, index: usize, _upper: bool, part: usize) -> Complex<L> {
-        let left = lanes.load_reversed_u32(&self.left[index], part);
-        let right = lanes.load_reversed_u32(&self.right[index], part);
+    fn elements<const COUNT: usize>(self, base: usize, stride: usize) -> Option<Self::Elements<COUNT>> {
+        Some(MassRuns {
+            left: Runs::new(self.left, base, stride as isize)?,
+            right: Runs::new(self.right, base, stride as isize)?,
+            signed: self.signed,
+        })
+    }
+}
+
+struct MassRuns<'a, const COUNT: usize> {
+    left: Runs<'a, [u32; 16], COUNT, 1>,
+    right: Runs<'a, [u32; 16], COUNT, 1>,
+    signed: bool,
+}
+
+impl<const COUNT: usize> Elements for MassRuns<'_, COUNT> {
+    #[inline(always)]
+    fn load<L: Lanes, const J: usize>(&self, lanes: L, part: usize) -> Complex<L> {
+        let left = lanes.load_reversed_u32(&self.left.get::<J>()[0], part);
+        let right = lanes.load_reversed_u32(&self.right.get::<J>()[0], part);
         if self.signed {
             Complex { re: lanes.of_i32(left), im: lanes.of_i32(right) }
         } else {
@@ -132,42 +154,57 @@ impl Source for Masses<'_> {
     }
 }
 
-/// Line x of the nodes, if there is one.
-#[inline(always)]
-fn masses_of(nodes: &[u32], x: usize, side: usize) -> &[u32] {
-    nodes.get(x * side..).unwrap_or(&[])
-}
-
 /// A line of frequencies in their order.
 struct Spectrum<'a> {
     spectrum: &'a mut [Sixteen],
-    next: Next<'a>,
+    next: Next,
 }
 
-/// What is needed for the next columns.
+/// Addresses of what is needed for the next columns.
 #[derive(Clone, Copy)]
-struct Next<'a> {
-    left: &'a [u32],
-    right: &'a [u32],
-    first: &'a [Sixteen],
-    second: &'a [Sixteen],
+struct Next {
+    left: *const u32,
+    right: *const u32,
+    first: *const Sixteen,
+    second: *const Sixteen,
 }
 
 impl LineSink for Spectrum<'_> {
+    type Places<'a>
+        = SpectrumPlaces<'a>
+    where
+        Self: 'a;
+
     #[inline(always)]
-    fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>) {
-        store(lanes, value, &mut self.spectrum[block], part);
+    fn places(&mut self, first: usize, distance: usize) -> Option<SpectrumPlaces<'_>> {
+        let next = Next {
+            left: self.next.left.wrapping_add(16 * first),
+            right: self.next.right.wrapping_add(16 * first),
+            first: self.next.first.wrapping_add(GROUP * first),
+            second: self.next.second.wrapping_add(GROUP * first),
+        };
+        Some(SpectrumPlaces { places: Comb::new(self.spectrum, first, distance)?, next, distance })
+    }
+}
+
+struct SpectrumPlaces<'a> {
+    places: Comb<'a, 16>,
+    next: Next,
+    distance: usize,
+}
+
+impl LinePlaces for SpectrumPlaces<'_> {
+    #[inline(always)]
+    fn store<L: Lanes, const I: usize>(&mut self, lanes: L, part: usize, value: Complex<L>) {
+        store(lanes, value, self.places.get_mut::<I>(), part);
         let Next { left, right, first, second } = self.next;
         if part == 0 {
-            for next in [left.get(16 * block), right.get(16 * block)].into_iter().flatten() {
-                lanes.prefetch(next);
-            }
+            lanes.prefetch(left.wrapping_add(16 * I * self.distance));
+            lanes.prefetch(right.wrapping_add(16 * I * self.distance));
         }
-        let half = self.spectrum.len() / 2;
-        let next = if block < half { first.get(block * GROUP) } else { second.get((block - half) * GROUP) };
-        if let Some(next) = next {
-            prefetch(lanes, next, part);
-        }
+        let place = GROUP * (I % 8) * self.distance;
+        let next = if I < 8 { first.wrapping_add(place) } else { second.wrapping_add(place) };
+        prefetch(lanes, next, part);
     }
 }
 
@@ -183,13 +220,14 @@ impl Kernel for Split<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let blocks = self.spectrum.len();
-        let places = self.first.iter_mut().step_by(GROUP).zip(self.second.iter_mut().step_by(GROUP));
-        for (block, (first, second)) in places.take(blocks / 2).enumerate() {
-            let mirror = &self.spectrum[(blocks - block) & (blocks - 1)];
-            let mirrors = &self.spectrum[blocks - block - 1];
-            for part in (0..16).step_by(L::WIDTH) {
-                let z = load(lanes, &self.spectrum[block], part);
+        let Self { spectrum, first, second } = self;
+        let places = first.iter_mut().step_by(GROUP).zip(second.iter_mut().step_by(GROUP));
+        // The mirrors of a block are the first of one and the others of the one before it; the first block's first is its own.
+        let Some(mut mirror) = spectrum.first() else { return };
+        let blocks = spectrum.iter().zip(spectrum.iter().rev()).take(spectrum.len() / 2);
+        for ((block, mirrors), (first, second)) in blocks.zip(places) {
+            parts!(L, part, {
+                let z = load(lanes, block, part);
                 let w: Complex<L> = Complex {
                     re: lanes.mirrored(mirror.re(), mirrors.re(), part),
                     im: lanes.mirrored(mirror.im(), mirrors.im(), part),
@@ -198,7 +236,8 @@ impl Kernel for Split<'_> {
                 let right = Complex { re: lanes.add(z.im, w.im), im: lanes.sub(w.re, z.re) };
                 store(lanes, left, first, part);
                 store(lanes, right, second, part);
-            }
+            });
+            mirror = mirrors;
         }
     }
 }

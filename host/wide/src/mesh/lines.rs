@@ -1,8 +1,8 @@
 //! The last sweep: lines of the field along y, to complex numbers one after another.
 
 use super::GROUP;
-use crate::lanes::{Kernel, Lanes, Level, Sixteen};
-use crate::transform::{Along, Complex, LineSink, Source, load_reversed, prefetch};
+use crate::lanes::{Comb, Kernel, LOWER, Lanes, Level, Runs, Sixteen, UPPER};
+use crate::transform::{Along, Complex, Elements, LinePlaces, LineSink, Source, load_reversed, prefetch};
 use meniscus_core::grid::Grid;
 use rayon::prelude::*;
 
@@ -46,39 +46,65 @@ impl Kernel for Work<'_> {
         let Lines { along, pitch, .. } = self.lines;
         let blocks = along.blocks();
         let scratch = &mut self.scratch[..GROUP * blocks];
-        let mut groups = self.field.chunks_exact_mut(GROUP * pitch).peekable();
-        while let Some(group) = groups.next() {
+        for group in self.field.chunks_exact_mut(GROUP * pitch) {
+            let next = group.as_ptr_range().end;
             for (line, scratch) in scratch.chunks_exact_mut(blocks).enumerate() {
-                along.begin(lanes, scratch, &Halves { group: &group[line..], half: blocks / 2 });
+                along.begin(lanes, scratch, Halves { group: &group[line..], half: blocks / 2 });
             }
             // All that was in the group is in the scratch memory, so that rows can take its place.
             let rows = group.chunks_exact_mut(pitch).zip(scratch.chunks_exact_mut(blocks));
             for (number, (row, scratch)) in rows.enumerate() {
-                let next = groups.peek().map_or(&[][..], |next| &next[number * pitch..]);
-                along.finish(lanes, scratch, &mut Row { row, next });
+                let next = next.wrapping_add(number * pitch);
+                along.finish(lanes, scratch, Row { row, next });
             }
         }
     }
 }
 
 /// A line of a group: frequencies 0 … M/2 − 1, then their mirrors, see [`super`].
+#[derive(Clone, Copy)]
 struct Halves<'a> {
     group: &'a [Sixteen],
     half: usize,
 }
 
-impl Source for Halves<'_> {
+impl<'a> Source for Halves<'a> {
+    type Elements<const COUNT: usize> = Mirrored<'a, COUNT>;
+
     #[inline(always)]
-    fn load<L: Lanes>(&self, lanes: L, index: usize, upper: bool, part: usize) -> Complex<L> {
-        if upper {
-            let mirror = &self.group[(self.half + ((2 * self.half - index) & (self.half - 1))) * GROUP];
-            let mirrors = &self.group[(3 * self.half - index - 1) * GROUP];
-            Complex {
-                re: lanes.mirrored_reversed(mirror.re(), mirrors.re(), part),
-                im: lanes.mirrored_reversed(mirror.im(), mirrors.im(), part),
-            }
-        } else {
-            load_reversed(lanes, &self.group[index * GROUP], part)
+    fn elements<const COUNT: usize>(self, base: usize, stride: usize) -> Option<Self::Elements<COUNT>> {
+        let Self { group, half } = self;
+        let distance = (stride * GROUP) as isize;
+        // Block index of the second half is the mirror of blocks 2·half − index and 2·half − index − 1, which begin after
+        // `half` others; the first one's mirror is the zeroth.
+        Some(Mirrored {
+            lower: Runs::new(group, base * GROUP, distance)?,
+            mirror: Runs::new(group, (3 * half).checked_sub(base)? * GROUP, -distance)?,
+            mirrors: Runs::new(group, (3 * half).checked_sub(base + 1)? * GROUP, -distance)?,
+            middle: group.get((half + ((half.checked_sub(base)?) & (half - 1))) * GROUP)?,
+        })
+    }
+}
+
+struct Mirrored<'a, const COUNT: usize> {
+    lower: Runs<'a, Sixteen, COUNT, 1, LOWER>,
+    mirror: Runs<'a, Sixteen, COUNT, 1, UPPER>,
+    mirrors: Runs<'a, Sixteen, COUNT, 1, UPPER>,
+    /// As `mirror`, in the middle of the line.
+    middle: &'a Sixteen,
+}
+
+impl<const COUNT: usize> Elements for Mirrored<'_, COUNT> {
+    #[inline(always)]
+    fn load<L: Lanes, const J: usize>(&self, lanes: L, part: usize) -> Complex<L> {
+        if J < COUNT / 2 {
+            return load_reversed(lanes, &self.lower.get::<J>()[0], part);
+        }
+        let mirror = if J == COUNT / 2 { self.middle } else { &self.mirror.get::<J>()[0] };
+        let mirrors = &self.mirrors.get::<J>()[0];
+        Complex {
+            re: lanes.mirrored_reversed(mirror.re(), mirrors.re(), part),
+            im: lanes.mirrored_reversed(mirror.im(), mirrors.im(), part),
         }
     }
 }
@@ -87,18 +113,38 @@ impl Source for Halves<'_> {
 struct Row<'a> {
     row: &'a mut [Sixteen],
     /// What is needed soon.
-    next: &'a [Sixteen],
+    next: *const Sixteen,
 }
 
 impl LineSink for Row<'_> {
+    type Places<'a>
+        = RowPlaces<'a>
+    where
+        Self: 'a;
+
     #[inline(always)]
-    fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>) {
+    fn places(&mut self, first: usize, distance: usize) -> Option<RowPlaces<'_>> {
+        Some(RowPlaces {
+            places: Comb::new(self.row, first, distance)?,
+            next: self.next.wrapping_add(first),
+            distance,
+        })
+    }
+}
+
+struct RowPlaces<'a> {
+    places: Comb<'a, 16>,
+    next: *const Sixteen,
+    distance: usize,
+}
+
+impl LinePlaces for RowPlaces<'_> {
+    #[inline(always)]
+    fn store<L: Lanes, const I: usize>(&mut self, lanes: L, part: usize, value: Complex<L>) {
         let (first, second) = lanes.interleave(value.re, value.im);
-        let numbers = &mut self.row[block].0[2 * part..];
+        let numbers = &mut self.places.get_mut::<I>().0[2 * part..];
         lanes.store_f32(first, numbers);
         lanes.store_f32(second, &mut numbers[L::WIDTH..]);
-        if let Some(next) = self.next.get(block) {
-            prefetch(lanes, next, part);
-        }
+        prefetch(lanes, self.next.wrapping_add(I * self.distance), part);
     }
 }

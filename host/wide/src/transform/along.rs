@@ -11,8 +11,18 @@ use meniscus_core::grid::Grid;
 
 /// Where the frequencies go.
 pub(crate) trait LineSink {
-    /// Takes frequencies 16·`block` + `part` …, lane by lane.
-    fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>);
+    /// Places of sixteen blocks at equal distances.
+    type Places<'a>: LinePlaces
+    where
+        Self: 'a;
+    /// The places of blocks `first` + i·`distance` of sixteen frequencies each; none if there are no such blocks.
+    fn places(&mut self, first: usize, distance: usize) -> Option<Self::Places<'_>>;
+}
+
+/// Places of sixteen blocks.
+pub(crate) trait LinePlaces {
+    /// Takes frequencies `part` … of block `I`, lane by lane.
+    fn store<L: Lanes, const I: usize>(&mut self, lanes: L, part: usize, value: Complex<L>);
 }
 
 /// Tables for lines of at least [`Along::SMALLEST`] elements.
@@ -40,13 +50,13 @@ impl Along {
 
     /// The first pass: element 16j + r of a line is in the lane of block j of `source` that has r's bits reversed.
     #[inline(always)]
-    pub(crate) fn begin<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], source: &impl Source) {
+    pub(crate) fn begin<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], source: impl Source) {
         self.plan.begin(lanes, scratch, source);
     }
 
     /// The rest, which destroys what is in `scratch`.
     #[inline(always)]
-    pub(crate) fn finish<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], sink: &mut impl LineSink) {
+    pub(crate) fn finish<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], sink: impl LineSink) {
         self.plan.finish(lanes, scratch);
         lanes.apart(JoinParts { scratch, factors: &self.factors, sink });
     }
@@ -56,7 +66,7 @@ impl Along {
 struct JoinParts<'a, K> {
     scratch: &'a [Sixteen],
     factors: &'a [[Sixteen; 8]],
-    sink: &'a mut K,
+    sink: K,
 }
 
 impl<K: LineSink> Kernel for JoinParts<'_, K> {
@@ -64,32 +74,24 @@ impl<K: LineSink> Kernel for JoinParts<'_, K> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Self { scratch, factors, sink } = self;
+        let Self { scratch, factors, mut sink } = self;
         let groups = factors.len();
         let (squares, _) = scratch.as_chunks::<16>();
         let mut square = [Sixteen::ZERO; 16];
         for (group, (rows, factors)) in squares.iter().zip(factors).enumerate() {
-            for part in (0..16).step_by(L::WIDTH) {
+            let Some(mut places) = sink.places(group, groups) else { return };
+            parts!(L, part, {
                 let factors = SideBySide { factors, part };
-                let place = Place { first: group, groups, part };
                 if group == 0 {
                     let lane = if part == 0 { 0 } else { u32::MAX };
                     let zero = lanes.equal(lanes.load_u32(&LANES), lanes.splat_u32(lane));
-                    join(lanes, rows, SideBySideFromZero { factors, zero }, &mut square, place, sink);
+                    join(lanes, rows, SideBySideFromZero { factors, zero }, &mut square, part, &mut places);
                 } else {
-                    join(lanes, rows, factors, &mut square, place, sink);
+                    join(lanes, rows, factors, &mut square, part, &mut places);
                 }
-            }
+            });
         }
     }
-}
-
-/// Where sixteen parts go: part q of the frequencies begins at block q·M/256.
-#[derive(Clone, Copy)]
-struct Place {
-    first: usize,
-    groups: usize,
-    part: usize,
 }
 
 /// The last four stages for frequencies `part` … of a square: two with the columns as they come, two more by way of memory.
@@ -99,11 +101,10 @@ fn join<L: Lanes, F: Factors<L>>(
     rows: &[Sixteen; 16],
     factors: F,
     square: &mut [Sixteen; 16],
-    place: Place,
-    sink: &mut impl LineSink,
+    part: usize,
+    places: &mut impl LinePlaces,
 ) {
-    let part = place.part;
-    for (quarter, places) in square.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+    for (quarter, held) in square.as_chunks_mut::<4>().0.iter_mut().enumerate() {
         let [[a, b, c, d], [e, f, g, h]] = lanes.columns(rows, quarter, part);
         let x: [Complex<L>; 4] = [
             Complex { re: a, im: e },
@@ -112,36 +113,36 @@ fn join<L: Lanes, F: Factors<L>>(
             Complex { re: d, im: h },
         ];
         let [a, b, c, d] = x.joined(lanes, factors);
-        let [first, second, third, fourth] = places;
+        let [first, second, third, fourth] = held;
         store(lanes, a, first, part);
         store(lanes, b, second, part);
         store(lanes, c, third, part);
         store(lanes, d, fourth, part);
     }
     let mut combs = combs::<4>(square);
-    later::<L, F, 0>(lanes, combs.next(), factors, place, sink);
-    later::<L, F, 1>(lanes, combs.next(), factors, place, sink);
-    later::<L, F, 2>(lanes, combs.next(), factors, place, sink);
-    later::<L, F, 3>(lanes, combs.next(), factors, place, sink);
+    later::<L, F, 0, 4, 8, 12>(lanes, combs.next(), factors, part, places);
+    later::<L, F, 1, 5, 9, 13>(lanes, combs.next(), factors, part, places);
+    later::<L, F, 2, 6, 10, 14>(lanes, combs.next(), factors, part, places);
+    later::<L, F, 3, 7, 11, 15>(lanes, combs.next(), factors, part, places);
 }
 
-/// The third and fourth stage of places `NUMBER`, `NUMBER` + 4, + 8 and + 12.
+/// The third and fourth stage of places `A`, `B` = `A` + 4, `C` = `A` + 8 and `D` = `A` + 12: part q of the frequencies
+/// begins at block q·M/256.
 #[inline(always)]
-fn later<L: Lanes, F: Factors<L>, const NUMBER: usize>(
+fn later<L: Lanes, F: Factors<L>, const A: usize, const B: usize, const C: usize, const D: usize>(
     lanes: L,
     comb: Option<Comb<'_, 4>>,
     factors: F,
-    place: Place,
-    sink: &mut impl LineSink,
+    part: usize,
+    places: &mut impl LinePlaces,
 ) {
     let Some(comb) = comb else { return };
-    let Place { first, groups, part } = place;
     let x = <[Complex<L>; 4]>::from_comb(lanes, &comb, part);
-    let [a, b, c, d] = x.joined(lanes, Later::<F, NUMBER>(factors));
-    sink.store(lanes, first + NUMBER * groups, part, a);
-    sink.store(lanes, first + (NUMBER + 4) * groups, part, b);
-    sink.store(lanes, first + (NUMBER + 8) * groups, part, c);
-    sink.store(lanes, first + (NUMBER + 12) * groups, part, d);
+    let [a, b, c, d] = x.joined(lanes, Later::<F, A>(factors));
+    places.store::<L, A>(lanes, part, a);
+    places.store::<L, B>(lanes, part, b);
+    places.store::<L, C>(lanes, part, c);
+    places.store::<L, D>(lanes, part, d);
 }
 
 /// Factors of the third and fourth stage as those of a first and second.

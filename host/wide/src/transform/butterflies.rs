@@ -1,4 +1,4 @@
-//! Butterflies of two, four, eight and sixteen numbers: consecutive stages of microfft's graph, done in registers.
+//! Butterflies of two, four and eight numbers: consecutive stages of microfft's graph, done in registers.
 //!
 //! A stage of half length m joins elements k and k + m of each block of 2m as x_k ± w·x_{k+m}, w = exp(−iπk/m). Several
 //! stages at once change nothing for any number. Elements come in the order of their places; the factors of all
@@ -105,23 +105,5 @@ impl<L: Lanes> Stages<L> for [Complex<L>; 8] {
         let (c, g) = two(lanes, c, factors.times_turned(lanes, 2, g));
         let (d, h) = two(lanes, d, factors.times_turned(lanes, 3, h));
         [a, b, c, d, e, f, g, h]
-    }
-}
-
-impl<L: Lanes> Stages<L> for [Complex<L>; 16] {
-    #[inline(always)]
-    fn joined<F: Factors<L>>(self, lanes: L, factors: F) -> Self {
-        let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = self;
-        let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].joined(lanes, factors);
-        let [i, j, k, l, m, n, o, p] = [i, j, k, l, m, n, o, p].joined(lanes, factors);
-        let (a, i) = two(lanes, a, factors.times(lanes, 4, i));
-        let (b, j) = two(lanes, b, factors.times(lanes, 5, j));
-        let (c, k) = two(lanes, c, factors.times(lanes, 6, k));
-        let (d, l) = two(lanes, d, factors.times(lanes, 7, l));
-        let (e, m) = two(lanes, e, factors.times_turned(lanes, 4, m));
-        let (f, n) = two(lanes, f, factors.times_turned(lanes, 5, n));
-        let (g, o) = two(lanes, g, factors.times_turned(lanes, 6, o));
-        let (h, p) = two(lanes, h, factors.times_turned(lanes, 7, p));
-        [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p]
     }
 }

@@ -16,17 +16,39 @@
 //! assert!(lines.iter().all(|block| block.re()[3] == 1.0 && block.re()[4] == 0.0));
 //! ```
 
+/// Does something with the parts of a block, one register after the other: with two of them twice the same text, so that what is
+/// the same for both is done once.
+macro_rules! parts {
+    ($lanes:ty, $part:ident, $body:block) => {
+        if <$lanes>::WIDTH == 8 {
+            {
+                let $part = 0;
+                $body
+            }
+            {
+                let $part = 8;
+                $body
+            }
+        } else {
+            for $part in (0..16).step_by(<$lanes>::WIDTH) $body
+        }
+    };
+}
+pub(crate) use parts;
+
 mod along;
 mod butterflies;
 mod factors;
 mod passes;
 
-pub(crate) use along::{Along, LineSink};
+pub(crate) use along::{Along, LinePlaces, LineSink};
 pub(crate) use butterflies::Complex;
 pub(crate) use factors::turns;
-pub(crate) use passes::{FromSlice, InPlace, Plan, Sink, Source, load, load_reversed, prefetch, store};
+pub(crate) use passes::{
+    Elements, FromSlice, InPlace, Places, Plan, Sink, Source, load, load_reversed, prefetch, store,
+};
 
-use crate::lanes::{Kernel, Lanes, Level, Sixteen};
+use crate::lanes::{Comb, Kernel, Lanes, Level, Runs, Sixteen};
 use meniscus_core::grid::Grid;
 
 /// Forward transforms of M points, not normalised, and the memory they need.
@@ -79,7 +101,7 @@ impl Kernel for Across<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        self.plan.run(lanes, self.scratch, &FromSlice(self.lines), &mut InPlace);
+        self.plan.run(lanes, self.scratch, FromSlice(self.lines), InPlace);
         self.lines.copy_from_slice(self.scratch);
     }
 }
@@ -95,18 +117,30 @@ impl Kernel for OneLine<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        self.along.begin(lanes, self.scratch, &Reversed(self.line));
-        self.along.finish(lanes, &mut self.scratch[..self.along.blocks()], &mut ToSlice(self.line));
+        self.along.begin(lanes, self.scratch, Reversed(self.line));
+        self.along.finish(lanes, &mut self.scratch[..self.along.blocks()], ToSlice(self.line));
     }
 }
 
 /// Blocks of a slice with their lanes in bit-reversed order.
+#[derive(Clone, Copy)]
 struct Reversed<'a>(&'a [Sixteen]);
 
-impl Source for Reversed<'_> {
+impl<'a> Source for Reversed<'a> {
+    type Elements<const COUNT: usize> = ReversedRuns<'a, COUNT>;
+
     #[inline(always)]
-    fn load<L: Lanes>(&self, lanes: L, index: usize, _upper: bool, part: usize) -> Complex<L> {
-        load_reversed(lanes, &self.0[index], part)
+    fn elements<const COUNT: usize>(self, base: usize, stride: usize) -> Option<Self::Elements<COUNT>> {
+        Some(ReversedRuns(Runs::new(self.0, base, stride as isize)?))
+    }
+}
+
+struct ReversedRuns<'a, const COUNT: usize>(Runs<'a, Sixteen, COUNT, 1>);
+
+impl<const COUNT: usize> Elements for ReversedRuns<'_, COUNT> {
+    #[inline(always)]
+    fn load<L: Lanes, const J: usize>(&self, lanes: L, part: usize) -> Complex<L> {
+        load_reversed(lanes, &self.0.get::<J>()[0], part)
     }
 }
 
@@ -114,8 +148,21 @@ impl Source for Reversed<'_> {
 struct ToSlice<'a>(&'a mut [Sixteen]);
 
 impl LineSink for ToSlice<'_> {
+    type Places<'a>
+        = Comb<'a, 16>
+    where
+        Self: 'a;
+
     #[inline(always)]
-    fn store<L: Lanes>(&mut self, lanes: L, block: usize, part: usize, value: Complex<L>) {
-        store(lanes, value, &mut self.0[block], part);
+    fn places(&mut self, first: usize, distance: usize) -> Option<Self::Places<'_>> {
+        Comb::new(self.0, first, distance)
+    }
+}
+
+/// Blocks in memory are places.
+impl LinePlaces for Comb<'_, 16> {
+    #[inline(always)]
+    fn store<L: Lanes, const I: usize>(&mut self, lanes: L, part: usize, value: Complex<L>) {
+        store(lanes, value, self.get_mut::<I>(), part);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::butterflies::{Complex, Stages};
 use super::factors::{self, AtZero, Same};
-use crate::lanes::{Comb, Kernel, Lanes, Sixteen, combs};
+use crate::lanes::{Comb, Kernel, Lanes, Runs, Sixteen, combs};
 use core::marker::PhantomData;
 use meniscus_core::transform::Complex32;
 
@@ -29,42 +29,72 @@ pub(crate) fn store<L: Lanes>(lanes: L, value: Complex<L>, block: &mut Sixteen, 
 
 /// Asks for a block to be brought near.
 #[inline(always)]
-pub(crate) fn prefetch<L: Lanes>(lanes: L, block: &Sixteen, part: usize) {
+pub(crate) fn prefetch<L: Lanes>(lanes: L, block: *const Sixteen, part: usize) {
+    let halves = block.cast::<[f32; 16]>();
     // The first part asks for the real parts, the last for the imaginary ones.
     if part == 0 {
-        lanes.prefetch(&block.0[0]);
+        lanes.prefetch(halves);
     }
     if part + L::WIDTH == 16 {
-        lanes.prefetch(&block.0[16]);
+        lanes.prefetch(halves.wrapping_add(1));
     }
 }
 
-/// Where the elements of lines come from.
-pub(crate) trait Source {
-    /// Lanes `part` … of element `index`; `upper` says whether it is in the second half of the line.
-    fn load<L: Lanes>(&self, lanes: L, index: usize, upper: bool, part: usize) -> Complex<L>;
+/// Where the elements of lines come from. A copy, not a reference, so that what it holds stays in registers while numbers
+/// are written.
+pub(crate) trait Source: Copy {
+    /// Elements at equal distances.
+    type Elements<const COUNT: usize>: Elements;
+    /// Elements base + j·stride of a line of `COUNT`·stride; none if there are no such elements.
+    fn elements<const COUNT: usize>(self, base: usize, stride: usize) -> Option<Self::Elements<COUNT>>;
+}
+
+/// Elements of lines at equal distances.
+pub(crate) trait Elements {
+    /// Lanes `part` … of element `J`.
+    fn load<L: Lanes, const J: usize>(&self, lanes: L, part: usize) -> Complex<L>;
 }
 
 /// Where the elements of transformed lines go.
 pub(crate) trait Sink {
-    /// Takes lanes `part` … of element `index`, whose place in the memory the pass works in is `place`.
-    fn store<L: Lanes>(
+    /// Places at equal distances.
+    type Places<'a, const COUNT: usize>: Places
+    where
+        Self: 'a;
+    /// The places of elements base + i·stride; none if there are no such elements.
+    fn places<const COUNT: usize>(&mut self, base: usize, stride: usize) -> Option<Self::Places<'_, COUNT>>;
+}
+
+/// Places for elements at equal distances.
+pub(crate) trait Places {
+    /// Takes lanes `part` … of element `I`, whose place in the memory the pass works in is `here`.
+    fn store<L: Lanes, const I: usize>(
         &mut self,
         lanes: L,
-        place: &mut Sixteen,
-        index: usize,
+        here: &mut Sixteen,
         part: usize,
         value: Complex<L>,
     );
 }
 
+/// Blocks in memory are elements.
+impl<const COUNT: usize> Elements for Runs<'_, Sixteen, COUNT, 1> {
+    #[inline(always)]
+    fn load<L: Lanes, const J: usize>(&self, lanes: L, part: usize) -> Complex<L> {
+        load(lanes, &self.get::<J>()[0], part)
+    }
+}
+
 /// Elements from a slice.
+#[derive(Clone, Copy)]
 pub(crate) struct FromSlice<'a>(pub(crate) &'a [Sixteen]);
 
-impl Source for FromSlice<'_> {
+impl<'a> Source for FromSlice<'a> {
+    type Elements<const COUNT: usize> = Runs<'a, Sixteen, COUNT, 1>;
+
     #[inline(always)]
-    fn load<L: Lanes>(&self, lanes: L, index: usize, _upper: bool, part: usize) -> Complex<L> {
-        load(lanes, &self.0[index], part)
+    fn elements<const COUNT: usize>(self, base: usize, stride: usize) -> Option<Self::Elements<COUNT>> {
+        Runs::new(self.0, base, stride as isize)
     }
 }
 
@@ -72,16 +102,24 @@ impl Source for FromSlice<'_> {
 pub(crate) struct InPlace;
 
 impl Sink for InPlace {
+    type Places<'a, const COUNT: usize> = Self;
+
     #[inline(always)]
-    fn store<L: Lanes>(
+    fn places<const COUNT: usize>(&mut self, _base: usize, _stride: usize) -> Option<Self> {
+        Some(Self)
+    }
+}
+
+impl Places for InPlace {
+    #[inline(always)]
+    fn store<L: Lanes, const I: usize>(
         &mut self,
         lanes: L,
-        place: &mut Sixteen,
-        _index: usize,
+        here: &mut Sixteen,
         part: usize,
         value: Complex<L>,
     ) {
-        store(lanes, value, place, part);
+        store(lanes, value, here, part);
     }
 }
 
@@ -155,20 +193,12 @@ impl Plan {
         &self,
         lanes: L,
         scratch: &mut [Sixteen],
-        source: &impl Source,
-        sink: &mut impl Sink,
+        source: impl Source,
+        sink: impl Sink,
     ) {
         let scratch = &mut scratch[..self.points];
-        let Some((last, middle)) = self.passes.split_last() else {
-            self.first(lanes, 0, scratch, source);
-            for (index, place) in scratch.iter_mut().enumerate() {
-                for part in (0..16).step_by(L::WIDTH) {
-                    let value = load(lanes, place, part);
-                    sink.store(lanes, place, index, part, value);
-                }
-            }
-            return;
-        };
+        // A plan has at least two passes, see `radices`.
+        let Some((last, middle)) = self.passes.split_last() else { return };
         // What is joined last is done block by block before, so that it stays in the nearest cache.
         for (number, block) in scratch.chunks_exact_mut(last.span).enumerate() {
             self.first(lanes, number * last.span, block, source);
@@ -181,7 +211,7 @@ impl Plan {
 
     /// The first pass alone, to all of `scratch`.
     #[inline(always)]
-    pub(crate) fn begin<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], source: &impl Source) {
+    pub(crate) fn begin<L: Lanes>(&self, lanes: L, scratch: &mut [Sixteen], source: impl Source) {
         self.first(lanes, 0, &mut scratch[..self.points], source);
     }
 
@@ -195,23 +225,22 @@ impl Plan {
 
     /// The first pass, for the elements whose places begin with `offset`.
     #[inline(always)]
-    fn first<L: Lanes>(&self, lanes: L, offset: usize, block: &mut [Sixteen], source: &impl Source) {
+    fn first<L: Lanes>(&self, lanes: L, offset: usize, block: &mut [Sixteen], source: impl Source) {
+        let (points, start) = (self.points, self.start);
         match self.first {
-            4 => lanes.apart(First::<Four, _> { plan: self, offset, block, source, radix: PhantomData }),
-            8 => lanes.apart(First::<Eight, _> { plan: self, offset, block, source, radix: PhantomData }),
-            _ => {
-                lanes.apart(First::<SixteenFold, _> { plan: self, offset, block, source, radix: PhantomData })
-            }
+            4 => lanes.apart(First::<Four, _> { points, start, offset, block, source, radix: PhantomData }),
+            _ => lanes.apart(First::<Eight, _> { points, start, offset, block, source, radix: PhantomData }),
         }
     }
 }
 
 /// A first pass: loads in bit-reversed order.
 struct First<'a, R, S> {
-    plan: &'a Plan,
+    points: usize,
+    start: AtZero,
     offset: usize,
     block: &'a mut [Sixteen],
-    source: &'a S,
+    source: S,
     radix: PhantomData<R>,
 }
 
@@ -220,18 +249,19 @@ impl<R: Radix, S: Source> Kernel for First<'_, R, S> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let stride = self.plan.points / R::RADIX;
+        let Self { points, start, offset, block, source, .. } = self;
+        let stride = points / R::RADIX;
         // Of a group's number, as many bits as there are groups.
         let shift = usize::BITS - stride.trailing_zeros();
-        for (group, block) in self.block.chunks_exact_mut(R::RADIX).enumerate() {
-            let group = self.offset / R::RADIX + group;
+        for (group, block) in block.chunks_exact_mut(R::RADIX).enumerate() {
+            let group = offset / R::RADIX + group;
             let base = group.reverse_bits().checked_shr(shift).unwrap_or(0);
-            for part in (0..16).step_by(L::WIDTH) {
-                let x = R::Numbers::<L>::from_source(lanes, self.source, base, stride, part);
-                let x = x.joined(lanes, self.plan.start);
-                for mut comb in R::Numbers::<L>::combs(block) {
-                    x.to_sink(lanes, &mut comb, 0, 1, part, &mut InPlace);
-                }
+            let Some(elements) = R::Numbers::<L>::elements(source, base, stride) else { return };
+            for mut comb in R::Numbers::<L>::combs(block) {
+                parts!(L, part, {
+                    let x = R::Numbers::<L>::loaded(lanes, &elements, part).joined(lanes, start);
+                    x.stored(lanes, &mut comb, &mut InPlace, part);
+                });
             }
         }
     }
@@ -241,26 +271,27 @@ impl Pass {
     /// Joins all groups of blocks, in place.
     #[inline(always)]
     fn join_blocks<L: Lanes>(&self, lanes: L, start: AtZero, data: &mut [Sixteen]) {
-        self.join(lanes, start, data, &mut InPlace);
+        self.join(lanes, start, data, InPlace);
     }
 
     /// Joins groups of blocks.
     #[inline(always)]
-    fn join<L: Lanes>(&self, lanes: L, start: AtZero, data: &mut [Sixteen], sink: &mut impl Sink) {
-        match self.radix {
-            4 => lanes.apart(Join::<Four, _> { pass: self, start, data, sink, radix: PhantomData }),
-            8 => lanes.apart(Join::<Eight, _> { pass: self, start, data, sink, radix: PhantomData }),
-            _ => lanes.apart(Join::<SixteenFold, _> { pass: self, start, data, sink, radix: PhantomData }),
+    fn join<L: Lanes>(&self, lanes: L, start: AtZero, data: &mut [Sixteen], sink: impl Sink) {
+        let Self { radix, span, ref factors } = *self;
+        match radix {
+            4 => lanes.apart(Join::<Four, _> { span, factors, start, data, sink, radix: PhantomData }),
+            _ => lanes.apart(Join::<Eight, _> { span, factors, start, data, sink, radix: PhantomData }),
         }
     }
 }
 
 /// A pass after the first.
 struct Join<'a, R, K> {
-    pass: &'a Pass,
+    span: usize,
+    factors: &'a [[f32; 2]],
     start: AtZero,
     data: &'a mut [Sixteen],
-    sink: &'a mut K,
+    sink: K,
     radix: PhantomData<R>,
 }
 
@@ -269,28 +300,23 @@ impl<R: Radix, K: Sink> Kernel for Join<'_, R, K> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let span = self.pass.span;
-        for data in self.data.chunks_exact_mut(R::RADIX * span) {
+        let Self { span, factors, start, data, mut sink, .. } = self;
+        for data in data.chunks_exact_mut(R::RADIX * span) {
             let mut combs = R::Numbers::<L>::combs(data);
             if let Some(mut comb) = combs.next() {
-                for part in (0..16).step_by(L::WIDTH) {
+                let Some(mut places) = R::Numbers::<L>::places(&mut sink, 0, span) else { return };
+                parts!(L, part, {
                     let x = R::Numbers::<L>::from_comb(lanes, &comb, part);
-                    x.joined(lanes, self.start).to_sink(lanes, &mut comb, 0, span, part, self.sink);
-                }
+                    x.joined(lanes, start).stored(lanes, &mut comb, &mut places, part);
+                });
             }
-            let factors = self.pass.factors.chunks_exact(R::RADIX / 2);
-            for (element, (factors, mut comb)) in factors.zip(combs).enumerate() {
-                for part in (0..16).step_by(L::WIDTH) {
+            let factors = factors.chunks_exact(R::RADIX / 2);
+            for (element, (factors, mut comb)) in (1..).zip(factors.zip(combs)) {
+                let Some(mut places) = R::Numbers::<L>::places(&mut sink, element, span) else { return };
+                parts!(L, part, {
                     let x = R::Numbers::<L>::from_comb(lanes, &comb, part);
-                    x.joined(lanes, Same(factors)).to_sink(
-                        lanes,
-                        &mut comb,
-                        element + 1,
-                        span,
-                        part,
-                        self.sink,
-                    );
-                }
+                    x.joined(lanes, Same(factors)).stored(lanes, &mut comb, &mut places, part);
+                });
             }
         }
     }
@@ -304,28 +330,27 @@ pub(crate) trait Radix {
 
 pub(crate) struct Four;
 pub(crate) struct Eight;
-pub(crate) struct SixteenFold;
 
 /// Elements at equal distances, to registers and back. Written out, so that no loop stands between memory and registers.
 pub(crate) trait Numbers<L: Lanes>: Stages<L> {
-    /// Elements base + j·stride of a source, the j in bit-reversed order.
-    fn from_source(lanes: L, source: &impl Source, base: usize, stride: usize, part: usize) -> Self;
+    /// As many elements of a source.
+    type Elements<S: Source>: Elements;
+    /// Elements base + j·stride of a source.
+    fn elements<S: Source>(source: S, base: usize, stride: usize) -> Option<Self::Elements<S>>;
+    /// Elements of a source, the j in bit-reversed order.
+    fn loaded(lanes: L, elements: &impl Elements, part: usize) -> Self;
     /// As many blocks of a slice, at the largest equal distances.
     type Comb<'a>;
     /// All combs of a slice.
     fn combs(data: &mut [Sixteen]) -> impl Iterator<Item = Self::Comb<'_>>;
     /// The elements of a comb.
     fn from_comb(lanes: L, comb: &Self::Comb<'_>, part: usize) -> Self;
-    /// To elements base + i·stride of a sink, where they have the places of a comb.
-    fn to_sink(
-        self,
-        lanes: L,
-        comb: &mut Self::Comb<'_>,
-        base: usize,
-        stride: usize,
-        part: usize,
-        sink: &mut impl Sink,
-    );
+    /// As many places of a sink.
+    type Places<'a, K: Sink + 'a>: Places;
+    /// Places base + i·stride of a sink.
+    fn places<K: Sink>(sink: &mut K, base: usize, stride: usize) -> Option<Self::Places<'_, K>>;
+    /// To places whose elements have the places of a comb.
+    fn stored(self, lanes: L, comb: &mut Self::Comb<'_>, places: &mut impl Places, part: usize);
 }
 
 macro_rules! numbers {
@@ -336,15 +361,16 @@ macro_rules! numbers {
         }
 
         impl<L: Lanes> Numbers<L> for [Complex<L>; $count] {
+            type Elements<S: Source> = S::Elements<$count>;
+
             #[inline(always)]
-            fn from_source(
-                lanes: L,
-                source: &impl Source,
-                base: usize,
-                stride: usize,
-                part: usize,
-            ) -> Self {
-                [$(source.load(lanes, base + $reversed * stride, $reversed >= $count / 2, part)),*]
+            fn elements<S: Source>(source: S, base: usize, stride: usize) -> Option<S::Elements<$count>> {
+                source.elements(base, stride)
+            }
+
+            #[inline(always)]
+            fn loaded(lanes: L, elements: &impl Elements, part: usize) -> Self {
+                [$(elements.load::<L, $reversed>(lanes, part)),*]
             }
 
             type Comb<'a> = Comb<'a, $count>;
@@ -359,17 +385,16 @@ macro_rules! numbers {
                 [$(load(lanes, comb.get::<$i>(), part)),*]
             }
 
+            type Places<'a, K: Sink + 'a> = K::Places<'a, $count>;
+
             #[inline(always)]
-            fn to_sink(
-                self,
-                lanes: L,
-                comb: &mut Comb<'_, $count>,
-                base: usize,
-                stride: usize,
-                part: usize,
-                sink: &mut impl Sink,
-            ) {
-                $(sink.store(lanes, comb.get_mut::<$i>(), base + $i * stride, part, self[$i]);)*
+            fn places<K: Sink>(sink: &mut K, base: usize, stride: usize) -> Option<K::Places<'_, $count>> {
+                sink.places(base, stride)
+            }
+
+            #[inline(always)]
+            fn stored(self, lanes: L, comb: &mut Comb<'_, $count>, places: &mut impl Places, part: usize) {
+                $(places.store::<L, $i>(lanes, comb.get_mut::<$i>(), part, self[$i]);)*
             }
         }
     };
@@ -377,4 +402,3 @@ macro_rules! numbers {
 
 numbers!(Four, 4: 0 1 2 3; 0 2 1 3);
 numbers!(Eight, 8: 0 1 2 3 4 5 6 7; 0 4 2 6 1 5 3 7);
-numbers!(SixteenFold, 16: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; 0 8 4 12 2 10 6 14 1 9 5 13 3 11 7 15);
