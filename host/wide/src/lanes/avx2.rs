@@ -62,7 +62,6 @@ impl Lanes for Avx2 {
         sub(a: __m256, b: __m256) -> __m256 = _mm256_sub_ps(a, b);
         mul(a: __m256, b: __m256) -> __m256 = _mm256_mul_ps(a, b);
         div(a: __m256, b: __m256) -> __m256 = _mm256_div_ps(a, b);
-        sqrt(a: __m256) -> __m256 = _mm256_sqrt_ps(a);
         less(a: __m256, b: __m256) -> __m256i = _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b));
         select(mask: __m256i, yes: __m256, no: __m256) -> __m256 =
             _mm256_blendv_ps(no, yes, _mm256_castsi256_ps(mask));
@@ -71,7 +70,6 @@ impl Lanes for Avx2 {
         sub_u32(a: __m256i, b: __m256i) -> __m256i = _mm256_sub_epi32(a, b);
         mul_u32(a: __m256i, b: __m256i) -> __m256i = _mm256_mullo_epi32(a, b);
         and(a: __m256i, b: __m256i) -> __m256i = _mm256_and_si256(a, b);
-        or(a: __m256i, b: __m256i) -> __m256i = _mm256_or_si256(a, b);
         xor(a: __m256i, b: __m256i) -> __m256i = _mm256_xor_si256(a, b);
         shl(a: __m256i, bits: u32) -> __m256i = _mm256_sll_epi32(a, _mm_cvtsi32_si128(bits as i32));
         shr(a: __m256i, bits: u32) -> __m256i = _mm256_srl_epi32(a, _mm_cvtsi32_si128(bits as i32));
@@ -89,8 +87,6 @@ impl Lanes for Avx2 {
         splat_u64(value: u64) -> [__m256i; 2] = [_mm256_set1_epi64x(value as i64); 2];
         add_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
             [_mm256_add_epi64(a[0], b[0]), _mm256_add_epi64(a[1], b[1])];
-        sub_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
-            [_mm256_sub_epi64(a[0], b[0]), _mm256_sub_epi64(a[1], b[1])];
         xor_u64(a: [__m256i; 2], b: [__m256i; 2]) -> [__m256i; 2] =
             [_mm256_xor_si256(a[0], b[0]), _mm256_xor_si256(a[1], b[1])];
         widen_u32(a: __m256i) -> [__m256i; 2] = [
@@ -140,19 +136,6 @@ impl Lanes for Avx2 {
             }
         }
         runs
-    }
-
-    #[inline(always)]
-    fn store_fours(self, columns: [__m256i; 4], to: &mut [[u32; 4]; LARGEST_WIDTH]) {
-        let [a, b, c, d] = columns;
-        // SAFETY: `self` says that AVX2 is there, and each place has room for the four numbers written to it.
-        unsafe {
-            let rows = transposed([self.of_bits(a), self.of_bits(b), self.of_bits(c), self.of_bits(d)]);
-            for (lane, row) in rows.into_iter().enumerate() {
-                _mm_storeu_ps(to[lane].as_mut_ptr().cast(), _mm256_castps256_ps128(row));
-                _mm_storeu_ps(to[lane + 4].as_mut_ptr().cast(), _mm256_extractf128_ps::<1>(row));
-            }
-        }
     }
 
     #[inline(always)]
@@ -238,16 +221,6 @@ impl Lanes for Avx2 {
             let (first, second) = (_mm256_castsi256_ps(a[0]), _mm256_castsi256_ps(a[1]));
             let mixed = _mm256_castps_si256(_mm256_shuffle_ps::<0b11_01_11_01>(first, second));
             _mm256_permute4x64_epi64::<0b11_01_10_00>(mixed)
-        }
-    }
-
-    #[inline(always)]
-    fn sum_u64(self, a: [__m256i; 2]) -> u64 {
-        // SAFETY: `self` says that AVX2 is there.
-        unsafe {
-            let four = _mm256_add_epi64(a[0], a[1]);
-            let two = _mm_add_epi64(_mm256_castsi256_si128(four), _mm256_extracti128_si256::<1>(four));
-            _mm_cvtsi128_si64(_mm_add_epi64(two, _mm_unpackhi_epi64(two, two))) as u64
         }
     }
 

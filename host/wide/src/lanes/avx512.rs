@@ -56,7 +56,6 @@ impl Lanes for Avx512 {
         sub(a: __m512, b: __m512) -> __m512 = _mm512_sub_ps(a, b);
         mul(a: __m512, b: __m512) -> __m512 = _mm512_mul_ps(a, b);
         div(a: __m512, b: __m512) -> __m512 = _mm512_div_ps(a, b);
-        sqrt(a: __m512) -> __m512 = _mm512_sqrt_ps(a);
         less(a: __m512, b: __m512) -> __mmask16 = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b);
         select(mask: __mmask16, yes: __m512, no: __m512) -> __m512 = _mm512_mask_blend_ps(mask, no, yes);
         splat_u32(value: u32) -> __m512i = _mm512_set1_epi32(value as i32);
@@ -64,7 +63,6 @@ impl Lanes for Avx512 {
         sub_u32(a: __m512i, b: __m512i) -> __m512i = _mm512_sub_epi32(a, b);
         mul_u32(a: __m512i, b: __m512i) -> __m512i = _mm512_mullo_epi32(a, b);
         and(a: __m512i, b: __m512i) -> __m512i = _mm512_and_si512(a, b);
-        or(a: __m512i, b: __m512i) -> __m512i = _mm512_or_si512(a, b);
         xor(a: __m512i, b: __m512i) -> __m512i = _mm512_xor_si512(a, b);
         shl(a: __m512i, bits: u32) -> __m512i = _mm512_sll_epi32(a, _mm_cvtsi32_si128(bits as i32));
         shr(a: __m512i, bits: u32) -> __m512i = _mm512_srl_epi32(a, _mm_cvtsi32_si128(bits as i32));
@@ -82,8 +80,6 @@ impl Lanes for Avx512 {
         splat_u64(value: u64) -> [__m512i; 2] = [_mm512_set1_epi64(value as i64); 2];
         add_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
             [_mm512_add_epi64(a[0], b[0]), _mm512_add_epi64(a[1], b[1])];
-        sub_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
-            [_mm512_sub_epi64(a[0], b[0]), _mm512_sub_epi64(a[1], b[1])];
         mul_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
             [_mm512_mullo_epi64(a[0], b[0]), _mm512_mullo_epi64(a[1], b[1])];
         xor_u64(a: [__m512i; 2], b: [__m512i; 2]) -> [__m512i; 2] =
@@ -126,7 +122,6 @@ impl Lanes for Avx512 {
             _mm512_castsi256_si512(_mm512_cvtepi64_epi32(_mm512_srli_epi64::<32>(a[0]))),
             _mm512_cvtepi64_epi32(_mm512_srli_epi64::<32>(a[1])),
         );
-        sum_u64(a: [__m512i; 2]) -> u64 = _mm512_reduce_add_epi64(_mm512_add_epi64(a[0], a[1])) as u64;
     }
 
     #[inline(always)]
@@ -163,21 +158,6 @@ impl Lanes for Avx512 {
             }
         }
         runs
-    }
-
-    #[inline(always)]
-    fn store_fours(self, columns: [__m512i; 4], to: &mut [[u32; 4]; WIDTH]) {
-        let [a, b, c, d] = columns;
-        // SAFETY: `self` says that AVX-512 is there, and each place has room for the four numbers written to it.
-        unsafe {
-            let rows = transposed([self.of_bits(a), self.of_bits(b), self.of_bits(c), self.of_bits(d)]);
-            for (lane, row) in rows.into_iter().enumerate() {
-                _mm_storeu_ps(to[lane].as_mut_ptr().cast(), _mm512_castps512_ps128(row));
-                _mm_storeu_ps(to[lane + 4].as_mut_ptr().cast(), _mm512_extractf32x4_ps::<1>(row));
-                _mm_storeu_ps(to[lane + 8].as_mut_ptr().cast(), _mm512_extractf32x4_ps::<2>(row));
-                _mm_storeu_ps(to[lane + 12].as_mut_ptr().cast(), _mm512_extractf32x4_ps::<3>(row));
-            }
-        }
     }
 
     #[inline(always)]

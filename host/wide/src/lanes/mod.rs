@@ -2,7 +2,7 @@
 //!
 //! A computation is written once, as a [`Kernel`] generic over [`Lanes`], and [`Level::dispatch`] runs it with the
 //! registers of a level. Whatever the level, each lane has the bits of the same operation on a single number: additions,
-//! multiplications, divisions and square roots are those of IEEE 754 binary32, rounded to nearest, and never fused.
+//! multiplications and divisions are those of IEEE 754 binary32, rounded to nearest, and never fused.
 //!
 //! This is the one place around the engine with unsafe code. It rests on one fact: a value of a type that implements
 //! [`Lanes`] exists only where the processor has been seen to have the instructions.
@@ -98,8 +98,6 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     fn mul(self, a: Self::F32, b: Self::F32) -> Self::F32;
     /// a / b.
     fn div(self, a: Self::F32, b: Self::F32) -> Self::F32;
-    /// √a.
-    fn sqrt(self, a: Self::F32) -> Self::F32;
     /// Where a < b.
     fn less(self, a: Self::F32, b: Self::F32) -> Self::Mask;
     /// `yes` where the mask is true, else `no`.
@@ -119,8 +117,6 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     fn mul_u32(self, a: Self::U32, b: Self::U32) -> Self::U32;
     /// Bits in both.
     fn and(self, a: Self::U32, b: Self::U32) -> Self::U32;
-    /// Bits in either.
-    fn or(self, a: Self::U32, b: Self::U32) -> Self::U32;
     /// Bits in one of both.
     fn xor(self, a: Self::U32, b: Self::U32) -> Self::U32;
     /// Shifted to the left by `bits` < 32.
@@ -160,8 +156,6 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     fn store_u64(self, value: Self::U64, to: &mut [u64]);
     /// a + b.
     fn add_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
-    /// a − b.
-    fn sub_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
     /// The lower 64 bits of a·b.
     fn mul_u64(self, a: Self::U64, b: Self::U64) -> Self::U64;
     /// The product of two integers of 32 bits, not signed.
@@ -176,8 +170,6 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     fn low(self, a: Self::U64) -> Self::U32;
     /// The upper 32 bits.
     fn high(self, a: Self::U64) -> Self::U32;
-    /// The sum over all lanes.
-    fn sum_u64(self, a: Self::U64) -> u64;
 
     /// The elements of a table at these indices, not signed; 0 beyond its end.
     fn gather_f32(self, table: &[f32], index: Self::U32) -> Self::F32;
@@ -215,15 +207,6 @@ pub trait Lanes: Copy + Send + Sync + 'static {
             }
         }
         runs
-    }
-
-    /// Writes four integers a lane, those of each lane side by side.
-    #[inline(always)]
-    fn store_fours(self, columns: [Self::U32; 4], to: &mut [[u32; 4]; LARGEST_WIDTH]) {
-        let columns = columns.map(|column| self.array_u32(column));
-        for (lane, four) in to.iter_mut().enumerate().take(Self::WIDTH) {
-            *four = columns.map(|column| column[lane]);
-        }
     }
 
     /// Writes eight integers a lane, those of each lane side by side.

@@ -55,7 +55,6 @@ impl Lanes for Neon {
         sub(a: float32x4_t, b: float32x4_t) -> float32x4_t = vsubq_f32(a, b);
         mul(a: float32x4_t, b: float32x4_t) -> float32x4_t = vmulq_f32(a, b);
         div(a: float32x4_t, b: float32x4_t) -> float32x4_t = vdivq_f32(a, b);
-        sqrt(a: float32x4_t) -> float32x4_t = vsqrtq_f32(a);
         less(a: float32x4_t, b: float32x4_t) -> uint32x4_t = vcltq_f32(a, b);
         select(mask: uint32x4_t, yes: float32x4_t, no: float32x4_t) -> float32x4_t = vbslq_f32(mask, yes, no);
         splat_u32(value: u32) -> uint32x4_t = vdupq_n_u32(value);
@@ -63,7 +62,6 @@ impl Lanes for Neon {
         sub_u32(a: uint32x4_t, b: uint32x4_t) -> uint32x4_t = vsubq_u32(a, b);
         mul_u32(a: uint32x4_t, b: uint32x4_t) -> uint32x4_t = vmulq_u32(a, b);
         and(a: uint32x4_t, b: uint32x4_t) -> uint32x4_t = vandq_u32(a, b);
-        or(a: uint32x4_t, b: uint32x4_t) -> uint32x4_t = vorrq_u32(a, b);
         xor(a: uint32x4_t, b: uint32x4_t) -> uint32x4_t = veorq_u32(a, b);
         shl(a: uint32x4_t, bits: u32) -> uint32x4_t = vshlq_u32(a, vdupq_n_s32(bits as i32));
         shr(a: uint32x4_t, bits: u32) -> uint32x4_t = vshlq_u32(a, vdupq_n_s32(-(bits as i32)));
@@ -85,8 +83,6 @@ impl Lanes for Neon {
         splat_u64(value: u64) -> [uint64x2_t; 2] = [vdupq_n_u64(value); 2];
         add_u64(a: [uint64x2_t; 2], b: [uint64x2_t; 2]) -> [uint64x2_t; 2] =
             [vaddq_u64(a[0], b[0]), vaddq_u64(a[1], b[1])];
-        sub_u64(a: [uint64x2_t; 2], b: [uint64x2_t; 2]) -> [uint64x2_t; 2] =
-            [vsubq_u64(a[0], b[0]), vsubq_u64(a[1], b[1])];
         xor_u64(a: [uint64x2_t; 2], b: [uint64x2_t; 2]) -> [uint64x2_t; 2] =
             [veorq_u64(a[0], b[0]), veorq_u64(a[1], b[1])];
         shr_u64(a: [uint64x2_t; 2], bits: u32) -> [uint64x2_t; 2] = [
@@ -103,7 +99,6 @@ impl Lanes for Neon {
             vuzp1q_u32(vreinterpretq_u32_u64(a[0]), vreinterpretq_u32_u64(a[1]));
         high(a: [uint64x2_t; 2]) -> uint32x4_t =
             vuzp2q_u32(vreinterpretq_u32_u64(a[0]), vreinterpretq_u32_u64(a[1]));
-        sum_u64(a: [uint64x2_t; 2]) -> u64 = vaddvq_u64(vaddq_u64(a[0], a[1]));
     }
 
     #[inline(always)]

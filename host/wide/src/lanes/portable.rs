@@ -112,14 +112,12 @@ impl Lanes for Portable {
         sub_u32(u32, u32) -> u32 = u32::wrapping_sub;
         mul_u32(u32, u32) -> u32 = u32::wrapping_mul;
         and(u32, u32) -> u32 = |a, b| a & b;
-        or(u32, u32) -> u32 = |a, b| a | b;
         xor(u32, u32) -> u32 = |a, b| a ^ b;
         equal(u32, u32) -> bool = |a, b| a == b;
         less_i32(u32, u32) -> bool = |a, b| (a as i32) < b as i32;
         both(bool, bool) -> bool = |a, b| a & b;
         either(bool, bool) -> bool = |a, b| a | b;
         add_u64(u64, u64) -> u64 = u64::wrapping_add;
-        sub_u64(u64, u64) -> u64 = u64::wrapping_sub;
         mul_u64(u64, u64) -> u64 = u64::wrapping_mul;
         xor_u64(u64, u64) -> u64 = |a, b| a ^ b;
         product(u32, u32) -> u64 = |a, b| u64::from(a) * u64::from(b);
@@ -133,7 +131,6 @@ impl Lanes for Portable {
     }
 
     each_lane_alone! {
-        sqrt(f32) -> f32 = f32::sqrt;
         to_bits(f32) -> u32 = f32::to_bits;
         of_bits(u32) -> f32 = f32::from_bits;
         of_i32(u32) -> f32 = |a| a as i32 as f32;
@@ -158,11 +155,6 @@ impl Lanes for Portable {
     #[inline(always)]
     fn bits(self, mask: Self::Mask) -> u32 {
         mask.iter().rev().fold(0, |bits, &lane| bits << 1 | u32::from(lane))
-    }
-
-    #[inline(always)]
-    fn sum_u64(self, a: Self::U64) -> u64 {
-        a.into_iter().fold(0, u64::wrapping_add)
     }
 
     #[inline(always)]

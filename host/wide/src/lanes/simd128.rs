@@ -54,7 +54,6 @@ impl Lanes for Simd128 {
         sub(a: v128, b: v128) -> v128 = f32x4_sub(a, b);
         mul(a: v128, b: v128) -> v128 = f32x4_mul(a, b);
         div(a: v128, b: v128) -> v128 = f32x4_div(a, b);
-        sqrt(a: v128) -> v128 = f32x4_sqrt(a);
         less(a: v128, b: v128) -> v128 = f32x4_lt(a, b);
         select(mask: v128, yes: v128, no: v128) -> v128 = v128_bitselect(yes, no, mask);
         splat_u32(value: u32) -> v128 = u32x4_splat(value);
@@ -62,7 +61,6 @@ impl Lanes for Simd128 {
         sub_u32(a: v128, b: v128) -> v128 = u32x4_sub(a, b);
         mul_u32(a: v128, b: v128) -> v128 = u32x4_mul(a, b);
         and(a: v128, b: v128) -> v128 = v128_and(a, b);
-        or(a: v128, b: v128) -> v128 = v128_or(a, b);
         xor(a: v128, b: v128) -> v128 = v128_xor(a, b);
         shl(a: v128, bits: u32) -> v128 = u32x4_shl(a, bits);
         shr(a: v128, bits: u32) -> v128 = u32x4_shr(a, bits);
@@ -80,7 +78,6 @@ impl Lanes for Simd128 {
         round(a: v128) -> v128 = i32x4_trunc_sat_f32x4(f32x4_nearest(a));
         splat_u64(value: u64) -> [v128; 2] = [u64x2_splat(value); 2];
         add_u64(a: [v128; 2], b: [v128; 2]) -> [v128; 2] = [u64x2_add(a[0], b[0]), u64x2_add(a[1], b[1])];
-        sub_u64(a: [v128; 2], b: [v128; 2]) -> [v128; 2] = [u64x2_sub(a[0], b[0]), u64x2_sub(a[1], b[1])];
         mul_u64(a: [v128; 2], b: [v128; 2]) -> [v128; 2] = [u64x2_mul(a[0], b[0]), u64x2_mul(a[1], b[1])];
         xor_u64(a: [v128; 2], b: [v128; 2]) -> [v128; 2] = [v128_xor(a[0], b[0]), v128_xor(a[1], b[1])];
         shr_u64(a: [v128; 2], bits: u32) -> [v128; 2] = [u64x2_shr(a[0], bits), u64x2_shr(a[1], bits)];
@@ -98,11 +95,6 @@ impl Lanes for Simd128 {
     #[inline(always)]
     fn of_bits(self, a: v128) -> v128 {
         a
-    }
-
-    #[inline(always)]
-    fn sum_u64(self, a: [v128; 2]) -> u64 {
-        self.array_u64(a).into_iter().fold(0, u64::wrapping_add)
     }
 
     #[inline(always)]

@@ -62,13 +62,11 @@ impl Lanes for Sse2 {
         sub(a: __m128, b: __m128) -> __m128 = _mm_sub_ps(a, b);
         mul(a: __m128, b: __m128) -> __m128 = _mm_mul_ps(a, b);
         div(a: __m128, b: __m128) -> __m128 = _mm_div_ps(a, b);
-        sqrt(a: __m128) -> __m128 = _mm_sqrt_ps(a);
         less(a: __m128, b: __m128) -> __m128i = _mm_castps_si128(_mm_cmplt_ps(a, b));
         splat_u32(value: u32) -> __m128i = _mm_set1_epi32(value as i32);
         add_u32(a: __m128i, b: __m128i) -> __m128i = _mm_add_epi32(a, b);
         sub_u32(a: __m128i, b: __m128i) -> __m128i = _mm_sub_epi32(a, b);
         and(a: __m128i, b: __m128i) -> __m128i = _mm_and_si128(a, b);
-        or(a: __m128i, b: __m128i) -> __m128i = _mm_or_si128(a, b);
         xor(a: __m128i, b: __m128i) -> __m128i = _mm_xor_si128(a, b);
         shl(a: __m128i, bits: u32) -> __m128i = _mm_sll_epi32(a, _mm_cvtsi32_si128(bits as i32));
         shr(a: __m128i, bits: u32) -> __m128i = _mm_srl_epi32(a, _mm_cvtsi32_si128(bits as i32));
@@ -85,8 +83,6 @@ impl Lanes for Sse2 {
         splat_u64(value: u64) -> [__m128i; 2] = [_mm_set1_epi64x(value as i64); 2];
         add_u64(a: [__m128i; 2], b: [__m128i; 2]) -> [__m128i; 2] =
             [_mm_add_epi64(a[0], b[0]), _mm_add_epi64(a[1], b[1])];
-        sub_u64(a: [__m128i; 2], b: [__m128i; 2]) -> [__m128i; 2] =
-            [_mm_sub_epi64(a[0], b[0]), _mm_sub_epi64(a[1], b[1])];
         xor_u64(a: [__m128i; 2], b: [__m128i; 2]) -> [__m128i; 2] =
             [_mm_xor_si128(a[0], b[0]), _mm_xor_si128(a[1], b[1])];
         widen_u32(a: __m128i) -> [__m128i; 2] =
@@ -119,14 +115,6 @@ impl Lanes for Sse2 {
             }
         }
         runs
-    }
-
-    #[inline(always)]
-    fn store_fours(self, columns: [__m128i; 4], to: &mut [[u32; 4]; LARGEST_WIDTH]) {
-        let [a, b, c, d] = columns.map(|column| self.of_bits(column));
-        for (four, row) in to.iter_mut().zip(transposed([a, b, c, d])) {
-            self.store_u32(self.to_bits(row), four);
-        }
     }
 
     #[inline(always)]
@@ -199,15 +187,6 @@ impl Lanes for Sse2 {
         let sign = self.sar(a, 31);
         // SAFETY: SSE2 is there.
         unsafe { [_mm_unpacklo_epi32(a, sign), _mm_unpackhi_epi32(a, sign)] }
-    }
-
-    #[inline(always)]
-    fn sum_u64(self, a: [__m128i; 2]) -> u64 {
-        // SAFETY: SSE2 is there.
-        unsafe {
-            let sum = _mm_add_epi64(a[0], a[1]);
-            _mm_cvtsi128_si64(_mm_add_epi64(sum, _mm_unpackhi_epi64(sum, sum))) as u64
-        }
     }
 
     #[inline(always)]
