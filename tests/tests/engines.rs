@@ -69,3 +69,30 @@ fn threads_and_storage_orders_cannot_be_seen_in_a_large_run() {
         }
     }
 }
+
+#[test]
+fn held_mesh_forces_are_the_same_for_every_machinery() {
+    let held = ["force.mesh_refresh=0.4", "system.particles=1000", "system.box=400"].map(str::to_owned);
+    let mut core = simulation("table-1", &held, CORE);
+    let (parameters, discs) = (core.configuration.parameters(), core.engine.discs());
+    let mut engines: Vec<Engine> = [1, 2, 3, 7]
+        .map(|threads| {
+            let machinery = Machinery { kind: Kind::Host, threads };
+            let discs = discs.iter().rev().copied();
+            Engine::with_machinery(machinery, &parameters, core.engine.clock(), discs).unwrap()
+        })
+        .into();
+    let mut refreshed = 0;
+    for step in 1..=4 * steps() {
+        let expected = core.engine.step().unwrap();
+        refreshed += u64::from(expected.refreshed);
+        let (digest, held) = (core.engine.state().digest(), core.engine.held());
+        for engine in &mut engines {
+            let what = format!("{} threads, step {step}", engine.threads());
+            assert_eq!(engine.step().unwrap(), expected, "{what}");
+            assert_eq!(engine.held(), held, "{what}");
+            assert_eq!(engine.state().digest(), digest, "{what}");
+        }
+    }
+    assert!(refreshed > 1 && refreshed < 4 * steps(), "computed anew {refreshed} times");
+}

@@ -47,7 +47,6 @@ pub struct Wide {
     table: Vec<Segment>,
     pairs: PairLoop,
     neighbours: Neighbours,
-    /// Whether so many discs are so close to each other that no memory is spent on lists.
     is_heap: bool,
 }
 
@@ -89,6 +88,13 @@ impl Wide {
     #[must_use]
     pub fn level(&self) -> Level {
         self.level
+    }
+
+    /// Whether so many discs were so close to each other when the forces were last computed that pairs were found without
+    /// lists, by the core.
+    #[must_use]
+    pub fn is_heap(&self) -> bool {
+        self.is_heap
     }
 
     fn motion(&self) -> Motion {
