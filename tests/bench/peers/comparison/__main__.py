@@ -5,6 +5,7 @@ import pathlib
 import sys
 
 from . import agreement, machine, plot, report
+from .contender import Failed
 from .interleaved import measure
 from .rows import Rows
 
@@ -75,8 +76,8 @@ def main():
     facts = machine.facts(HERE)
     try:
         shown = compare(rows, run)
-    except agreement.Disagreement as disagreement:
-        sys.exit(f"comparison: {disagreement}")
+    except (agreement.Disagreement, Failed) as reason:
+        sys.exit(f"comparison: {reason}")
     facts["load when it ended"] = machine.load()
     head = "\n".join(f"- {name}: {value}" for name, value in facts.items())
     given.out.mkdir(parents=True, exist_ok=True)

@@ -18,6 +18,8 @@ def deviation(mine, reference):
 
 
 def hold(label, mine, reference):
+    if mine.shape != reference.shape:
+        raise Disagreement(f"{label} has values of shape {mine.shape}, expected {reference.shape}")
     found = deviation(mine, reference)
     if not found <= TOLERANCE:
         raise Disagreement(f"{label} differs by {found:.1e} of the rms, more than {TOLERANCE:.0e}")
@@ -26,6 +28,8 @@ def hold(label, mine, reference):
 
 def of_fields(running):
     """The fields of all contenders at some nodes against those of the first; the largest deviation."""
+    if not running:
+        raise Disagreement("none of the contenders could be started: there is nothing to compare")
     reference, *others = (np.array(each.ask("check")) for each in running)
     return max((hold(each.label, mine, reference) for each, mine in zip(running[1:], others)), default=0.0)
 

@@ -7,11 +7,14 @@ import subprocess
 from . import limits, states
 from .contender import Contender
 
-# Ratios of CPU time that this engine is to stay below.
+# Ratios of CPU time to the fastest of the peers that this engine is to stay below: a mesh solve by nodes a side and level
+# of SIMD, a whole step of Table I by state, a whole step of a million discs.
 MESH_TARGETS = {512: {"avx2": 0.75, "avx512": 0.5}, 2048: {"avx2": 0.55, "avx512": 0.4}}
 STEP_TARGETS = {"uniform": 0.30, "collapsed": 0.50}
 LARGE_TARGET = 2.0
+# Largest over smallest cost of a disc, whatever their number, that this engine is to stay below.
 SWEEP_TARGET = 1.5
+# Time on the wall with one thread over that with two that this engine is to reach.
 THREADS_TARGET = 1.7
 
 # Plans are sought the longest on meshes up to this.
@@ -21,8 +24,7 @@ SWEEP_SKIN = "2.5"
 LARGE_COUNT = 1_000_000
 # Spacing of the mesh for many discs, R0, as near as a power of two comes to it: 2048 nodes a side for a million.
 LARGE_SPACING = 4.9
-# Steps in a batch, so many that several lists of neighbours are made in it.
-LARGE_STEPS = 50
+# Steps in a batch: so many that lists of neighbours of discs spread evenly are made several times in it.
 STEPS = 50
 
 
@@ -41,7 +43,7 @@ class Comparison:
     units: float = 1e3
     # Beginning of the labels of those whose fastest is the reference.
     reference: str = ""
-    # Largest ratio to the reference by label.
+    # Ratio to the reference to stay below, by label.
     targets: dict[str, float] = dataclasses.field(default_factory=dict)
     # Whether contenders can be asked for values of their result.
     comparable: bool = False
@@ -154,7 +156,7 @@ class Rows:
             title=f"{LARGE_COUNT} discs, mesh 2048",
             contenders=(ours, *skins),
             rounds=3 if self.quick else 7,
-            repetitions=LARGE_STEPS,
+            repetitions=STEPS,
             unit="ns per disc",
             units=1e9 / LARGE_COUNT,
             reference="LAMMPS",
@@ -175,13 +177,13 @@ class Rows:
             )
         ]
         rounds = 5 if self.quick else 7
-        return Comparison("sweep", "Cost of a disc", tuple(contenders), rounds, LARGE_STEPS, unit="ns")
+        return Comparison("sweep", "Cost of a disc", tuple(contenders), rounds, STEPS, unit="ns")
 
     def threads(self):
         contenders = [
             self.large_step(f"{threads} thread{'s' * (threads > 1)}", LARGE_COUNT, threads=threads) for threads in (1, 2)
         ]
-        rounds, steps = (3, LARGE_STEPS // 2) if self.quick else (7, LARGE_STEPS)
+        rounds, steps = (3, STEPS // 2) if self.quick else (7, STEPS)
         return Comparison("threads", "Two threads", tuple(contenders), rounds, steps)
 
     def limits(self):
