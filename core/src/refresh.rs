@@ -52,7 +52,8 @@ impl Refresh {
             let (x, y) = (along(*to.0, *from.0), along(*to.1, *from.1));
             x * x + y * y
         });
-        // No step is as long as half a box, so that within two steps of a quarter none can come back unseen.
+        // A disc that was not due is less than L/4 from its reference, and a step moves it by less than L/2 along an axis. So it
+        // is less than 3L/4 away, and more than L/4 from all other images of the reference: none comes back unseen.
         squares.max().unwrap_or(0) >= u64::from(self.distance) * u64::from(self.distance)
     }
 }

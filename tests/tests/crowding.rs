@@ -75,7 +75,7 @@ fn a_cell_holds_two_to_the_15_discs_and_not_one_more() {
 }
 
 #[test]
-fn cells_are_as_wide_as_the_repulsion_reaches_and_no_more_than_the_nodes() {
+fn cells_are_as_many_as_nodes_and_the_reach_of_the_repulsion_allow() {
     for exponent in 4..=12 {
         let grid = Grid::new(1 << exponent).unwrap();
         for side in [2.0 * CUTOFF * (1.0 + 1e-15), 4.0 * CUTOFF, 36.0, 37.0, 500.0, 10_000.0, LARGEST_SIDE] {
@@ -91,6 +91,10 @@ fn cells_are_as_wide_as_the_repulsion_reaches_and_no_more_than_the_nodes() {
             );
         }
     }
+}
+
+#[test]
+fn only_large_heaps_of_discs_that_repel_each_other_are_of_concern() {
     let none = Crowding::new(0, Grid::SMALLEST);
     assert_eq!(none.cells_a_side(), 1);
     assert!(!none.concerns(LARGEST_PARTICLE_COUNT));

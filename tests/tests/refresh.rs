@@ -481,10 +481,11 @@ fn damaged_sections_are_refused_with_what_is_wrong() {
         message(&bytes)
     };
     assert_eq!(changed(48, b'h'), "the state is followed by other bytes: it ends after 48");
-    assert_eq!(changed(52, 49), "the state has 49 bytes of held forces, expected 48");
+    let remedy = "the file was altered; start from another state of the run";
+    assert_eq!(changed(52, 49), format!("the state has 49 bytes of held forces, expected 48: {remedy}"));
     // The sign of disc 1's force along x.
     let expected = "the held force of disc 1 is larger than the mesh force of so many discs can be";
-    assert_eq!(changed(48 + 12 + 24 + 15, 0x80), expected);
+    assert_eq!(changed(48 + 12 + 24 + 15, 0x80), format!("{expected}: {remedy}"));
     // Strengths come first, and each section once.
     let swapped = [&bytes[..], b"STRE", &8_u64.to_le_bytes(), &[1; 8]].concat();
     assert_eq!(message(&swapped), "the state is followed by other bytes: it ends after 108");

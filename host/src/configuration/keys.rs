@@ -313,7 +313,8 @@ pub const KEYS: &[Key] = &[
         kind: Kind::Real { least: 0.0, closed: true, most: MESH_REFRESH_RANGE.1, infinite: false },
         unit: "R0",
         default: "0",
-        help: "How far a disc moves before the force of the mesh is computed anew; 0 for every step",
+        help: "How far a disc moves before the force of the mesh is computed anew, also if the state at the start holds it and other \
+               keys have changed; 0 for every step",
     },
     Key {
         name: "mesh.grid",

@@ -129,7 +129,10 @@ pub enum StateError {
     #[error("the state has a section of strengths that are all 1: leave it out")]
     Ones,
     /// A section of held forces of another length than the number of discs asks for.
-    #[error("the state has {found} bytes of held forces, expected {expected}")]
+    #[error(
+        "the state has {found} bytes of held forces, expected {expected}: the file was altered; start from another state of \
+         the run"
+    )]
     Held {
         /// Length in the section's head.
         found: u64,
@@ -137,7 +140,10 @@ pub enum StateError {
         expected: u64,
     },
     /// A held force that no mesh can exert.
-    #[error("the held force of disc {id} is larger than the mesh force of so many discs can be")]
+    #[error(
+        "the held force of disc {id} is larger than the mesh force of so many discs can be: the file was altered; start from \
+         another state of the run"
+    )]
     HeldForce {
         /// The disc.
         id: u32,

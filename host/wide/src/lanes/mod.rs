@@ -171,9 +171,11 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     /// The upper 32 bits.
     fn high(self, a: Self::U64) -> Self::U32;
 
-    /// The elements of a table at these indices, not signed; 0 beyond its end.
+    /// The elements of a table at these indices, not signed; 0 beyond its end. From index 2³¹ − 1 on it may be 0 before the
+    /// end too: no offset in a register reaches farther.
     fn gather_f32(self, table: &[f32], index: Self::U32) -> Self::F32;
-    /// The elements of a table at these indices, not signed; 0 beyond its end.
+    /// The elements of a table at these indices, not signed; 0 beyond its end. From index 2³¹ − 1 on it may be 0 before the
+    /// end too: no offset in a register reaches farther.
     fn gather_u32(self, table: &[u32], index: Self::U32) -> Self::U32;
 
     /// The pairs of a table at as many indices, the first numbers of all and the second ones; 0 beyond its end.
