@@ -79,6 +79,8 @@ static void sizes_and_creation(void) {
     EXPECT(meniscus_size(8192, 1) == 0 && meniscus_size(0x80000000u, 1) == 0);
     EXPECT(meniscus_size(16, 0) == 0 && meniscus_size(16, 4194305) == 0 && meniscus_size(16, SIZE_MAX) == 0);
     EXPECT(meniscus_size(16, 1) != 0 && meniscus_size(4096, 4194304) != 0);
+    EXPECT(meniscus_size_to_hold(16, 0) == 0 && meniscus_size_to_hold(8, 1) == 0);
+    EXPECT(meniscus_size_to_hold(GRID, DISCS) == meniscus_size(GRID, DISCS) + 40 * DISCS);
     EXPECT(_Alignof(max_align_t) % meniscus_alignment() == 0);
 
     size_t length = meniscus_size(GRID, DISCS);
@@ -128,6 +130,8 @@ static void null_pointers(void) {
     STATUS(NULL_POINTER, meniscus_digest(engine, NULL));
     STATUS(NULL_POINTER, meniscus_digest_text(NULL, text));
     STATUS(NULL_POINTER, meniscus_fraction(16.0, 1.0, NULL));
+    STATUS(NULL_POINTER, meniscus_hold(NULL, words, words, forces, forces, DISCS));
+    STATUS(NULL_POINTER, meniscus_held(NULL, words, words, forces, forces, DISCS));
     EXPECT(meniscus_count(NULL) == 0);
     STATUS(NULL_POINTER, meniscus_set(engine, &parameters, NULL, NULL, X, NULL, STRENGTHS, DISCS));
     STATUS(MISALIGNED, meniscus_set(engine, &parameters, NULL, NULL, X, Y,
@@ -145,6 +149,8 @@ static void before_a_run_is_set(void) {
     EXPECT(meniscus_count(engine) == 0);
     STATUS(NOT_INITIALISED, meniscus_step(engine, NULL));
     STATUS(NOT_INITIALISED, meniscus_compute_forces(engine));
+    STATUS(NOT_INITIALISED, meniscus_hold(engine, NULL, NULL, NULL, NULL, 0));
+    STATUS(NOTHING_HELD, meniscus_held(engine, NULL, NULL, NULL, NULL, 0));
     STATUS(OK, meniscus_digest(engine, &digest));
     EXPECT(digest.length == 32);
     STATUS(OK, meniscus_positions(engine, &word, &word, 0));
@@ -179,6 +185,10 @@ static void parameters_out_of_range(void) {
     REFUSED(GRID_TOO_FINE, grid, 256);
     REFUSED(MAX_STEP, max_step, 2.0);
     REFUSED(MAX_DISPLACEMENT, max_displacement, 1.0);
+    REFUSED(MESH_REFRESH, mesh_refresh, -0.1);
+    REFUSED(MESH_REFRESH, mesh_refresh, 16.1);
+    REFUSED(MESH_REFRESH_TOO_LARGE, mesh_refresh, 4.0);
+    REFUSED(NO_ROOM_TO_HOLD, mesh_refresh, 0.1);
     REFUSED(SEED, seed, (uint64_t)1 << 63);
     REFUSED(METHOD, method, 0);
     REFUSED(METHOD, method, 3);
@@ -330,6 +340,59 @@ static void a_restart_goes_on_as_if_nothing_had_happened(void) {
     free(memories[1]);
 }
 
+static void held_forces_go_on_after_a_restart(void) {
+    size_t length = meniscus_size_to_hold(GRID, DISCS);
+    MeniscusEngine *whole, *parts;
+    char *memories[2] = {malloc(length + 1), malloc(length + 1)};
+    memories[0][length] = memories[1][length] = 0x5A;
+    STATUS(OK, meniscus_create(memories[0], length, GRID, DISCS, &whole));
+    STATUS(OK, meniscus_create(memories[1], length, GRID, DISCS, &parts));
+    MeniscusParameters parameters = small_split_box();
+    parameters.mesh_refresh = 0.2;
+    MeniscusClock clock;
+    MeniscusStep step;
+    MeniscusDigest expected, found;
+    uint32_t x[DISCS], y[DISCS], reference_x[DISCS], reference_y[DISCS];
+    int64_t force_x[DISCS], force_y[DISCS];
+    int refreshed = 0;
+    STATUS(OK, set(whole, parameters));
+    STATUS(OK, set(parts, parameters));
+    STATUS(NOTHING_HELD, meniscus_held(whole, reference_x, reference_y, force_x, force_y, DISCS));
+    for (int number = 0; number < 100; number++) {
+        STATUS(OK, meniscus_step(whole, &step));
+        refreshed += step.refreshed != 0;
+        STATUS(OK, meniscus_step(parts, NULL));
+        STATUS(OK, meniscus_digest(whole, &expected));
+        STATUS(OK, meniscus_digest(parts, &found));
+        EXPECT(expected.length == 32 + 8 * DISCS + 12 + 24 * DISCS && expected.length == found.length);
+        EXPECT(memcmp(expected.sha256, found.sha256, sizeof expected.sha256) == 0);
+        STATUS(OK, meniscus_clock(parts, &clock));
+        STATUS(OK, meniscus_positions(parts, x, y, DISCS));
+        STATUS(OK, meniscus_held(parts, reference_x, reference_y, force_x, force_y, DISCS));
+        STATUS(OK, meniscus_set(parts, &parameters, &clock, NULL, x, y, NULL, DISCS));
+        STATUS(OK, meniscus_hold(parts, reference_x, reference_y, force_x, force_y, DISCS));
+    }
+    EXPECT(refreshed > 1 && refreshed < 100);
+    STATUS(NULL_POINTER, meniscus_held(parts, reference_x, NULL, force_x, force_y, DISCS));
+    STATUS(NULL_POINTER, meniscus_held(parts, reference_x, reference_y, NULL, force_y, DISCS));
+    STATUS(ARRAY_TOO_SHORT, meniscus_held(parts, reference_x, reference_y, force_x, force_y, DISCS - 1));
+    STATUS(ARRAY_TOO_SHORT, meniscus_hold(parts, reference_x, reference_y, force_x, force_y, DISCS - 1));
+    STATUS(TOO_MANY_PARTICLES, meniscus_hold(parts, reference_x, reference_y, force_x, force_y, DISCS + 1));
+    STATUS(NULL_POINTER, meniscus_hold(parts, reference_x, reference_y, force_x, NULL, DISCS));
+    force_y[1] = INT64_MIN;
+    STATUS(HELD_FORCE, meniscus_hold(parts, reference_x, reference_y, force_x, force_y, DISCS));
+    STATUS(NOTHING_HELD, meniscus_held(parts, reference_x, reference_y, force_x, force_y, DISCS));
+    /* A run that holds none ignores what it is given. */
+    parameters.mesh_refresh = 0.0;
+    STATUS(OK, set(parts, parameters));
+    STATUS(OK, meniscus_hold(parts, reference_x, reference_y, force_x, force_y, DISCS));
+    STATUS(OK, meniscus_step(parts, &step));
+    EXPECT(step.refreshed == 1);
+    EXPECT(memories[0][length] == 0x5A && memories[1][length] == 0x5A);
+    free(memories[0]);
+    free(memories[1]);
+}
+
 int main(int count, char **arguments) {
     if (count > 1) {
         for (int place = 1; place < count; place++) {
@@ -348,5 +411,6 @@ int main(int count, char **arguments) {
     another_rounding_is_refused();
     steps_that_are_refused();
     a_restart_goes_on_as_if_nothing_had_happened();
+    held_forces_go_on_after_a_restart();
     return failures != 0;
 }

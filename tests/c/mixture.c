@@ -1,5 +1,6 @@
-/* Discs that raise the interface and discs that sink it, held by a trap: the split force, unequal strengths and external
- * fields. Prints the state's digest, the clock and the last step. */
+/* Discs that raise the interface and discs that sink it, held by a trap: the split force, its mesh part held over several
+ * steps, unequal strengths and external fields. Prints the state's digest, the clock and the last step, and in how many
+ * steps the force of the mesh was computed. */
 
 #include "meniscus.h"
 
@@ -20,7 +21,7 @@ static void require(const char *what, MeniscusStatus status) {
 }
 
 int main(void) {
-    size_t length = meniscus_size(GRID, DISCS);
+    size_t length = meniscus_size_to_hold(GRID, DISCS);
     void *memory = malloc(length);
     MeniscusEngine *engine;
     require("create", meniscus_create(memory, length, GRID, DISCS, &engine));
@@ -33,6 +34,7 @@ int main(void) {
     parameters.method = MENISCUS_METHOD_P3M;
     parameters.splitting = 0.4;
     parameters.cutoff = 7.5;
+    parameters.mesh_refresh = 0.25;
     parameters.assignment = MENISCUS_ASSIGNMENT_ORDER5;
     parameters.influence = MENISCUS_INFLUENCE_OPTIMAL;
     parameters.gradient = MENISCUS_GRADIENT_SPECTRAL;
@@ -55,8 +57,10 @@ int main(void) {
     require("set", meniscus_set(engine, &parameters, NULL, NULL, x, y, strengths, DISCS));
 
     MeniscusStep step = {0};
+    uint32_t refreshed = 0;
     for (int done = 0; done < STEPS; done++) {
         require("step", meniscus_step(engine, &step));
+        refreshed += step.refreshed;
     }
 
     MeniscusDigest digest;
@@ -66,6 +70,7 @@ int main(void) {
     printf("%" PRIu64 " %s\n", digest.length, text);
     printf("%" PRIu64 " %" PRIu64 " %" PRIu64 " %" PRIu64 "\n", step.clock.step, step.clock.time, step.length,
            step.largest_force);
+    printf("%" PRIu32 "\n", refreshed);
     free(memory);
     return 0;
 }

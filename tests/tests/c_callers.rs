@@ -127,6 +127,7 @@ fn mixture_on_the_host() -> Vec<String> {
         method: Method::P3m,
         splitting: 0.4,
         cutoff: 7.5,
+        mesh_refresh: 0.25,
         assignment: Assignment::Order5,
         influence: Influence::Optimal,
         gradient: Gradient::Spectral,
@@ -143,11 +144,14 @@ fn mixture_on_the_host() -> Vec<String> {
         strength: if id % 3 == 0 { -(DISC as i32) } else { DISC as i32 / 2 },
     });
     let mut engine = Engine::with_ids(&parameters, Clock::START, discs).unwrap();
-    let last = (0..200).map(|_| engine.step().unwrap()).last().unwrap();
+    let steps: Vec<_> = (0..200).map(|_| engine.step().unwrap()).collect();
+    let (last, refreshed) = (steps.last().unwrap(), steps.iter().filter(|step| step.refreshed).count());
+    assert!(refreshed > 3 && refreshed < 100, "computed {refreshed} times");
     let digest = engine.state().digest();
     vec![
         format!("{} {digest}", digest.length),
         format!("{} {} {} {}", last.clock.step, last.clock.time, last.length, last.largest_force),
+        refreshed.to_string(),
     ]
 }
 
@@ -177,7 +181,7 @@ fn a_c_program_gets_the_same_bits() {
 }
 
 #[test]
-fn a_c_program_gets_the_same_bits_of_the_split_force_with_unequal_strengths_in_a_trap() {
+fn a_c_program_gets_the_same_bits_of_the_split_force_held_with_unequal_strengths_in_a_trap() {
     let output = run(&mut Command::new(c_program("mixture", "bits")));
     let found = String::from_utf8(output.stdout).unwrap();
     assert_eq!(found.lines().collect::<Vec<_>>(), mixture_on_the_host());

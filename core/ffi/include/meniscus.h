@@ -143,6 +143,14 @@ typedef enum {
    */
   MENISCUS_STATUS_FIELDS = 40,
   /**
+   * The distance of mesh_refresh is neither 0 nor 2^-20 to 16 R0.
+   */
+  MENISCUS_STATUS_MESH_REFRESH = 41,
+  /**
+   * The distance of mesh_refresh is not below a quarter of the side.
+   */
+  MENISCUS_STATUS_MESH_REFRESH_TOO_LARGE = 42,
+  /**
    * The program flushes subnormal numbers to zero, which would change the bits.
    */
   MENISCUS_STATUS_SUBNORMALS_FLUSHED = 48,
@@ -171,6 +179,14 @@ typedef enum {
    */
   MENISCUS_STATUS_STRENGTH = 54,
   /**
+   * Mesh forces are to be held, and the memory is shorter than meniscus_size_to_hold says.
+   */
+  MENISCUS_STATUS_NO_ROOM_TO_HOLD = 55,
+  /**
+   * The held forces are not those of a run of these discs: one is larger than a mesh can exert.
+   */
+  MENISCUS_STATUS_HELD_FORCE = 56,
+  /**
    * There are no discs: no run was set, or setting it failed.
    */
   MENISCUS_STATUS_NOT_INITIALISED = 64,
@@ -195,6 +211,10 @@ typedef enum {
    * The engine's memory was written to by somebody else.
    */
   MENISCUS_STATUS_MEMORY = 69,
+  /**
+   * No mesh forces are held.
+   */
+  MENISCUS_STATUS_NOTHING_HELD = 70,
 } MeniscusStatus;
 
 /**
@@ -327,6 +347,11 @@ typedef struct {
    */
   double cutoff;
   /**
+   * How far a disc moves before the force of the mesh is computed anew for all, R0; 0 for every step, else 2^-20 to 16 and
+   * below a quarter of the side, for an engine in memory of meniscus_size_to_hold.
+   */
+  double mesh_refresh;
+  /**
    * Uniform external force along x, kBT/R0. No external field exerts more than 1e8 along an axis anywhere.
    */
   double uniform_force_x;
@@ -418,6 +443,10 @@ typedef struct {
    * Steps done and time reached after it.
    */
   MeniscusClock clock;
+  /**
+   * Whether the force of the mesh was computed anew, 0 or 1; always 1 if none is held.
+   */
+  uint32_t refreshed;
 } MeniscusStep;
 
 /**
@@ -446,13 +475,21 @@ size_t meniscus_size(uint32_t grid,
                      size_t capacity);
 
 /**
+ * The same for an engine that can hold mesh forces over several steps, mesh_refresh of the parameters: 40 bytes more for
+ * each disc.
+ */
+size_t meniscus_size_to_hold(uint32_t grid,
+                             size_t capacity);
+
+/**
  * Alignment of that memory in bytes; what malloc returns is always aligned so.
  */
 size_t meniscus_alignment(void);
 
 /**
  * Makes an engine without discs in `length` bytes of the caller's memory, which is lent to it from now on, and
- * writes where it is to `engine` (null if that fails).
+ * writes where it is to `engine` (null if that fails). In memory of meniscus_size_to_hold bytes or more it can hold mesh
+ * forces.
  *
  * The memory need not be initialised. It may be freed or used otherwise as soon as the engine is no longer needed.
  * It must not be moved or copied: the copy is no engine.
@@ -473,8 +510,8 @@ MeniscusStatus meniscus_create(void *memory,
  * once, in any order; null if the discs are given in the order of their ids. `strengths` are their capillary strengths,
  * unit 2^-20: discs attract each other with the capillary strength of the parameters times both of theirs, and repel
  * each other if the signs differ; null if all of them are 1, MENISCUS_STRENGTH_ONE. `clock` is where the run stands: null
- * for the start, the clock of a state reached before to go on as if the run had never stopped. Crossings and forces
- * are 0 then. If anything is refused, the engine has no discs.
+ * for the start, the clock of a state reached before to go on as if the run had never stopped (with meniscus_hold if mesh
+ * forces were held). Crossings and forces are 0 then. If anything is refused, the engine has no discs.
  *
  * # Safety
  * `engine` is null or from meniscus_create and used by nobody else meanwhile. Each other pointer is null or points
@@ -488,6 +525,22 @@ MeniscusStatus meniscus_set(MeniscusEngine *engine,
                             const uint32_t *y,
                             const int32_t *strengths,
                             size_t count);
+
+/**
+ * Goes on with the mesh forces that were held where the run stands, as meniscus_held wrote them: after meniscus_set with the
+ * clock and positions of that state, so that the run goes on as if it had never stopped. A run that holds none ignores
+ * them. If they are refused, none are held.
+ *
+ * # Safety
+ * `engine` is null or from meniscus_create and used by nobody else meanwhile. Each other pointer is null or points to
+ * `count` values outside the engine's memory.
+ */
+MeniscusStatus meniscus_hold(MeniscusEngine *engine,
+                             const uint32_t *reference_x,
+                             const uint32_t *reference_y,
+                             const int64_t *force_x,
+                             const int64_t *force_y,
+                             size_t count);
 
 /**
  * Does one step and writes what happened to `step`, which may be null. If the step is refused, the state is as it
@@ -563,6 +616,22 @@ MeniscusStatus meniscus_forces(const MeniscusEngine *engine,
                                int64_t *x,
                                int64_t *y,
                                size_t length);
+
+/**
+ * Writes the mesh forces that are held, and where the discs were when they were computed, in the order of the ids: x and y in
+ * units of side / 2^32, forces in 2^-24 kBT/R0. They belong to the state, and meniscus_hold takes them. Before the first step
+ * nothing is held, nor ever without mesh_refresh.
+ *
+ * # Safety
+ * `engine` is null or from meniscus_create and not changed meanwhile; the other pointers are null or point to `length`
+ * numbers outside the engine's memory.
+ */
+MeniscusStatus meniscus_held(const MeniscusEngine *engine,
+                             uint32_t *reference_x,
+                             uint32_t *reference_y,
+                             int64_t *force_x,
+                             int64_t *force_y,
+                             size_t length);
 
 /**
  * Writes length and SHA-256 of the canonical bytes of the state to `digest`.

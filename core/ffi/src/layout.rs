@@ -111,6 +111,12 @@ pub(crate) struct Layout {
     displacement_x: Span<i32>,
     displacement_y: Span<i32>,
     pub(crate) strengths: Span<i32>,
+    pub(crate) held_x: Span<i64>,
+    pub(crate) held_y: Span<i64>,
+    fresh_x: Span<i64>,
+    fresh_y: Span<i64>,
+    pub(crate) reference_x: Span<Fraction>,
+    pub(crate) reference_y: Span<Fraction>,
     next: Span<u32>,
     nodes: Span<u32>,
     field: Span<Complex32>,
@@ -121,16 +127,17 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// For `grid` nodes a side and room for `capacity` discs; the status names what is out of range.
-    pub(crate) fn new(grid: u32, capacity: usize) -> Result<Self, MeniscusStatus> {
+    /// For `grid` nodes a side and room for `capacity` discs, that to hold their mesh forces too if asked for; the status
+    /// names what is out of range.
+    pub(crate) fn new(grid: u32, capacity: usize, holds: bool) -> Result<Self, MeniscusStatus> {
         let grid = usize::try_from(grid).ok().and_then(Grid::new).ok_or(MeniscusStatus::Grid)?;
         if capacity == 0 || capacity > LARGEST_PARTICLE_COUNT {
             return Err(MeniscusStatus::Capacity);
         }
-        Self::placed(grid, capacity).ok_or(MeniscusStatus::Capacity)
+        Self::placed(grid, capacity, if holds { capacity } else { 0 }).ok_or(MeniscusStatus::Capacity)
     }
 
-    fn placed(grid: Grid, capacity: usize) -> Option<Self> {
+    fn placed(grid: Grid, capacity: usize, held: usize) -> Option<Self> {
         let (nodes, mut end) = (grid.nodes(), size_of::<MeniscusEngine>());
         let end = &mut end;
         let mut layout = Self {
@@ -139,6 +146,12 @@ impl Layout {
             size: 0,
             force_x: Span::take(end, capacity)?,
             force_y: Span::take(end, capacity)?,
+            held_x: Span::take(end, held)?,
+            held_y: Span::take(end, held)?,
+            fresh_x: Span::take(end, held)?,
+            fresh_y: Span::take(end, held)?,
+            reference_x: Span::take(end, held)?,
+            reference_y: Span::take(end, held)?,
             ids: Span::take(end, capacity)?,
             slots: Span::take(end, capacity)?,
             x: Span::take(end, capacity)?,
@@ -176,7 +189,7 @@ impl Layout {
     }
 }
 
-/// Makes an engine without discs, all its arrays zero.
+/// Makes an engine without discs, all its arrays zero, with room to hold mesh forces if the memory is long enough.
 ///
 /// # Safety
 /// `memory` is null or points to `length` bytes that nothing else uses while the engine is used.
@@ -186,7 +199,8 @@ pub(crate) unsafe fn create(
     grid: u32,
     capacity: usize,
 ) -> Result<*mut MeniscusEngine, MeniscusStatus> {
-    let layout = Layout::new(grid, capacity)?;
+    let holding = Layout::new(grid, capacity, true).ok().filter(|layout| layout.size <= length);
+    let layout = holding.map_or_else(|| Layout::new(grid, capacity, false), Ok)?;
     if memory.is_null() {
         return Err(MeniscusStatus::NullPointer);
     }
@@ -235,6 +249,12 @@ pub(crate) unsafe fn parts<'a>(engine: *mut MeniscusEngine) -> (&'a mut Dynamics
             displacement_x: layout.displacement_x.exclusive(engine),
             displacement_y: layout.displacement_y.exclusive(engine),
             strengths: layout.strengths.exclusive(engine),
+            held_x: layout.held_x.exclusive(engine),
+            held_y: layout.held_y.exclusive(engine),
+            fresh_x: layout.fresh_x.exclusive(engine),
+            fresh_y: layout.fresh_y.exclusive(engine),
+            reference_x: layout.reference_x.exclusive(engine),
+            reference_y: layout.reference_y.exclusive(engine),
             next: layout.next.exclusive(engine),
             nodes: layout.nodes.exclusive(engine),
             field: layout.field.exclusive(engine),
@@ -242,7 +262,6 @@ pub(crate) unsafe fn parts<'a>(engine: *mut MeniscusEngine) -> (&'a mut Dynamics
             influence: layout.influence.exclusive(engine),
             gradient: layout.gradient.exclusive(engine),
             near: layout.near.exclusive(engine),
-            ..Memory::default()
         }
     };
     (dynamics, layout, memory)

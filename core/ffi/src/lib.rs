@@ -46,7 +46,7 @@ use layout::{Element, Layout, Span};
 use meniscus_core::dynamics::{Clock, Disc, Dynamics};
 use meniscus_core::grid::Grid;
 use meniscus_core::parameters::Parameters;
-use meniscus_core::refresh::HeldForces;
+use meniscus_core::refresh::{HeldForce, HeldForces};
 use meniscus_core::stages::Scalar;
 use meniscus_core::torus::{Fraction, Position, Torus};
 use meniscus_core::transform::AnySize;
@@ -111,7 +111,14 @@ unsafe fn array_or_none<'a, T>(source: *const T, count: usize) -> Result<Option<
 /// for `capacity` discs (1 to 4194304); 0 if one of them is out of range.
 #[unsafe(no_mangle)]
 pub extern "C" fn meniscus_size(grid: u32, capacity: usize) -> usize {
-    Layout::new(grid, capacity).map_or(0, |layout| layout.size())
+    Layout::new(grid, capacity, false).map_or(0, |layout| layout.size())
+}
+
+/// The same for an engine that can hold mesh forces over several steps, mesh_refresh of the parameters: 40 bytes more for
+/// each disc.
+#[unsafe(no_mangle)]
+pub extern "C" fn meniscus_size_to_hold(grid: u32, capacity: usize) -> usize {
+    Layout::new(grid, capacity, true).map_or(0, |layout| layout.size())
 }
 
 /// Alignment of that memory in bytes; what malloc returns is always aligned so.
@@ -121,7 +128,8 @@ pub extern "C" fn meniscus_alignment() -> usize {
 }
 
 /// Makes an engine without discs in `length` bytes of the caller's memory, which is lent to it from now on, and
-/// writes where it is to `engine` (null if that fails).
+/// writes where it is to `engine` (null if that fails). In memory of meniscus_size_to_hold bytes or more it can hold mesh
+/// forces.
 ///
 /// The memory need not be initialised. It may be freed or used otherwise as soon as the engine is no longer needed.
 /// It must not be moved or copied: the copy is no engine.
@@ -152,8 +160,8 @@ pub unsafe extern "C" fn meniscus_create(
 /// once, in any order; null if the discs are given in the order of their ids. `strengths` are their capillary strengths,
 /// unit 2^-20: discs attract each other with the capillary strength of the parameters times both of theirs, and repel
 /// each other if the signs differ; null if all of them are 1, MENISCUS_STRENGTH_ONE. `clock` is where the run stands: null
-/// for the start, the clock of a state reached before to go on as if the run had never stopped. Crossings and forces
-/// are 0 then. If anything is refused, the engine has no discs.
+/// for the start, the clock of a state reached before to go on as if the run had never stopped (with meniscus_hold if mesh
+/// forces were held). Crossings and forces are 0 then. If anything is refused, the engine has no discs.
 ///
 /// # Safety
 /// `engine` is null or from meniscus_create and used by nobody else meanwhile. Each other pointer is null or points
@@ -238,6 +246,44 @@ unsafe fn set(
     memory.force_y.fill(0);
     *dynamics = Dynamics::new(&parameters, clock, discs, &mut memory)?;
     Ok(())
+}
+
+/// Goes on with the mesh forces that were held where the run stands, as meniscus_held wrote them: after meniscus_set with the
+/// clock and positions of that state, so that the run goes on as if it had never stopped. A run that holds none ignores
+/// them. If they are refused, none are held.
+///
+/// # Safety
+/// `engine` is null or from meniscus_create and used by nobody else meanwhile. Each other pointer is null or points to
+/// `count` values outside the engine's memory.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn meniscus_hold(
+    engine: *mut MeniscusEngine,
+    reference_x: *const u32,
+    reference_y: *const u32,
+    force_x: *const i64,
+    force_y: *const i64,
+    count: usize,
+) -> MeniscusStatus {
+    let run = || {
+        check(engine)?;
+        // SAFETY: an engine of meniscus_create, used by nobody else.
+        let (dynamics, _, mut memory) = unsafe { layout::parts(engine) };
+        match dynamics.count() {
+            0 => return Err(MeniscusStatus::NotInitialised),
+            discs if count < discs => return Err(MeniscusStatus::ArrayTooShort),
+            discs if count > discs => return Err(MeniscusStatus::TooManyParticles),
+            _ => {}
+        }
+        // SAFETY: `count` values each as promised, few enough since they are as many as discs.
+        let (x, y) = unsafe { (array(reference_x, count)?, array(reference_y, count)?) };
+        // SAFETY: the same.
+        let (force_x, force_y) = unsafe { (array(force_x, count)?, array(force_y, count)?) };
+        let references = x.iter().zip(y).map(|(&x, &y)| Position::from_bits(x, y));
+        let forces = force_x.iter().copied().zip(force_y.iter().copied());
+        let held = references.zip(forces).map(|(reference, force)| HeldForce { reference, force });
+        Ok(dynamics.hold(held, &mut memory)?)
+    };
+    status_of(run())
 }
 
 /// Does one step and writes what happened to `step`, which may be null. If the step is refused, the state is as it
@@ -405,6 +451,39 @@ pub unsafe extern "C" fn meniscus_forces(
     status_of(unsafe { read(engine, pick, |force| force, (x, y), length) })
 }
 
+/// Writes the mesh forces that are held, and where the discs were when they were computed, in the order of the ids: x and y in
+/// units of side / 2^32, forces in 2^-24 kBT/R0. They belong to the state, and meniscus_hold takes them. Before the first step
+/// nothing is held, nor ever without mesh_refresh.
+///
+/// # Safety
+/// `engine` is null or from meniscus_create and not changed meanwhile; the other pointers are null or point to `length`
+/// numbers outside the engine's memory.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn meniscus_held(
+    engine: *const MeniscusEngine,
+    reference_x: *mut u32,
+    reference_y: *mut u32,
+    force_x: *mut i64,
+    force_y: *mut i64,
+    length: usize,
+) -> MeniscusStatus {
+    let run = || {
+        check(engine)?;
+        // SAFETY: an engine of meniscus_create, not changed meanwhile.
+        if !unsafe { layout::header(engine) }.0.is_held() {
+            return Err(MeniscusStatus::NothingHeld);
+        }
+        let references = |layout: &Layout| (layout.reference_x, layout.reference_y);
+        // SAFETY: all pointers as promised.
+        unsafe { read(engine, references, Fraction::to_bits, (reference_x, reference_y), length) }?;
+        // SAFETY: the same.
+        unsafe {
+            read(engine, |layout| (layout.held_x, layout.held_y), |force| force, (force_x, force_y), length)
+        }
+    };
+    status_of(run())
+}
+
 /// Writes length and SHA-256 of the canonical bytes of the state to `digest`.
 ///
 /// # Safety
@@ -424,10 +503,17 @@ pub unsafe extern "C" fn meniscus_digest(
             unsafe { (layout.slots.shared(engine), layout.x.shared(engine), layout.y.shared(engine)) };
         // SAFETY: the same.
         let strengths = unsafe { layout.strengths.shared(engine) };
+        // SAFETY: the same.
+        let held = unsafe {
+            HeldForces {
+                reference_x: layout.reference_x.shared(engine),
+                reference_y: layout.reference_y.shared(engine),
+                force_x: layout.held_x.shared(engine),
+                force_y: layout.held_y.shared(engine),
+            }
+        };
         // SAFETY: `digest` as promised.
-        unsafe {
-            put(digest, dynamics.state(slots, (x, y), strengths, HeldForces::default()).digest().into())
-        }
+        unsafe { put(digest, dynamics.state(slots, (x, y), strengths, held).digest().into()) }
     };
     status_of(run())
 }

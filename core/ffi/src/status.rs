@@ -73,6 +73,10 @@ pub enum MeniscusStatus {
     /// An external field is not finite, exceeds 1e8 kBT/R0 somewhere, or is a trap of negative stiffness or with a centre
     /// outside the box.
     Fields = 40,
+    /// The distance of mesh_refresh is neither 0 nor 2^-20 to 16 R0.
+    MeshRefresh = 41,
+    /// The distance of mesh_refresh is not below a quarter of the side.
+    MeshRefreshTooLarge = 42,
     /// The program flushes subnormal numbers to zero, which would change the bits.
     SubnormalsFlushed = 48,
     /// The program does not round to nearest, which would change the bits.
@@ -87,6 +91,10 @@ pub enum MeniscusStatus {
     Id = 53,
     /// A strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT.
     Strength = 54,
+    /// Mesh forces are to be held, and the memory is shorter than meniscus_size_to_hold says.
+    NoRoomToHold = 55,
+    /// The held forces are not those of a run of these discs: one is larger than a mesh can exert.
+    HeldForce = 56,
     /// There are no discs: no run was set, or setting it failed.
     NotInitialised = 64,
     /// A mesh node would hold more than 4095 discs, or strengths of more than 2047, or, of more than 524288 discs, more than
@@ -100,12 +108,14 @@ pub enum MeniscusStatus {
     HalfBox = 68,
     /// The engine's memory was written to by somebody else.
     Memory = 69,
+    /// No mesh forces are held.
+    NothingHeld = 70,
 }
 
 use MeniscusStatus as S;
 
 /// What each status means.
-const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
+const MESSAGES: [(MeniscusStatus, &CStr); 49] = [
     (S::Ok, c"done"),
     (S::NullPointer, c"a pointer is null"),
     (S::Misaligned, c"a pointer is not aligned for what it points to"),
@@ -143,6 +153,8 @@ const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
         S::Fields,
         c"an external field is not finite, exceeds 1e8 kBT/R0 somewhere, or is a trap of negative stiffness or with a centre outside the box",
     ),
+    (S::MeshRefresh, c"the distance of mesh_refresh is neither 0 nor 2^-20 to 16 R0"),
+    (S::MeshRefreshTooLarge, c"the distance of mesh_refresh is not below a quarter of the side"),
     (S::SubnormalsFlushed, c"the program flushes subnormal numbers to zero, which would change the bits"),
     (S::Rounding, c"the program does not round to nearest, which would change the bits"),
     (S::GridMismatch, c"the parameters ask for another mesh than the engine was created for"),
@@ -150,12 +162,15 @@ const MESSAGES: [(MeniscusStatus, &CStr); 44] = [
     (S::TooManyParticles, c"more discs were given than the engine was created for"),
     (S::Id, c"the ids are not 0 to count - 1, each once"),
     (S::Strength, c"a strength exceeds 1000, or the capillary strength times its square exceeds 1000 kBT"),
+    (S::NoRoomToHold, c"mesh forces are to be held, and the memory is shorter than meniscus_size_to_hold says"),
+    (S::HeldForce, c"the held forces are not those of a run of these discs: one is larger than a mesh can exert"),
     (S::NotInitialised, c"there are no discs: no run was set, or setting it failed"),
     (S::Crowded, c"too many discs in one place: a mesh node holds 4095 discs, or strengths of 2047; of more than 524288 discs a cell 32768"),
     (S::StepTooShort, c"the largest force allows no step of even 2^-40 R0^2/D"),
     (S::TimeOverflow, c"time would exceed 2^24 R0^2/D, or the number of steps 2^64 - 1"),
     (S::HalfBox, c"a disc would move by half a box or more"),
     (S::Memory, c"the engine's memory was written to by somebody else"),
+    (S::NothingHeld, c"no mesh forces are held"),
 ];
 
 /// What a MeniscusStatus means, in one line that lives as long as the program. Never null.
@@ -180,8 +195,8 @@ impl From<ParameterError> for MeniscusStatus {
             ParameterError::SplittingTooLarge => Self::SplittingTooLarge,
             ParameterError::Cutoff => Self::Cutoff,
             ParameterError::CutoffTooLarge => Self::CutoffTooLarge,
-            // Callers in C have no such parameter.
-            ParameterError::MeshRefresh | ParameterError::MeshRefreshTooLarge => Self::Memory,
+            ParameterError::MeshRefresh => Self::MeshRefresh,
+            ParameterError::MeshRefreshTooLarge => Self::MeshRefreshTooLarge,
             ParameterError::Influence => Self::InfluenceOfMethod,
             ParameterError::Gradient => Self::GradientOfMethod,
             ParameterError::Fields => Self::Fields,
@@ -203,8 +218,9 @@ impl From<InitError> for MeniscusStatus {
             InitError::TooManyParticles { .. } => Self::TooManyParticles,
             InitError::Id { .. } => Self::Id,
             InitError::Strength { .. } => Self::Strength,
-            // The latter two do not happen: nothing is held.
-            InitError::Memory | InitError::NoRoomToHold | InitError::HeldForce { .. } => Self::Memory,
+            InitError::Memory => Self::Memory,
+            InitError::NoRoomToHold => Self::NoRoomToHold,
+            InitError::HeldForce { .. } => Self::HeldForce,
         }
     }
 }

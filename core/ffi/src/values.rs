@@ -93,6 +93,9 @@ pub struct MeniscusParameters {
     pub splitting: f64,
     /// Cut-off of the near part of P3m, R0; at least 1, below half the side. Not looked at otherwise.
     pub cutoff: f64,
+    /// How far a disc moves before the force of the mesh is computed anew for all, R0; 0 for every step, else 2^-20 to 16 and
+    /// below a quarter of the side, for an engine in memory of meniscus_size_to_hold.
+    pub mesh_refresh: f64,
     /// Uniform external force along x, kBT/R0. No external field exerts more than 1e8 along an axis anywhere.
     pub uniform_force_x: f64,
     /// Uniform external force along y, kBT/R0.
@@ -133,6 +136,7 @@ impl From<&Parameters> for MeniscusParameters {
             capillary_length: parameters.capillary_length,
             splitting: parameters.splitting,
             cutoff: parameters.cutoff,
+            mesh_refresh: parameters.mesh_refresh,
             uniform_force_x: parameters.fields.uniform_force[0],
             uniform_force_y: parameters.fields.uniform_force[1],
             trap_stiffness: parameters.fields.trap_stiffness,
@@ -195,8 +199,7 @@ impl TryFrom<&MeniscusParameters> for Parameters {
             },
             splitting: parameters.splitting,
             cutoff: parameters.cutoff,
-            // Not for callers in C yet.
-            mesh_refresh: 0.0,
+            mesh_refresh: parameters.mesh_refresh,
             grid: usize::try_from(parameters.grid).map_err(|_| MeniscusStatus::Grid)?,
             assignment: match parameters.assignment {
                 2 => Assignment::CloudInCell,
@@ -283,11 +286,18 @@ pub struct MeniscusStep {
     pub largest_force: u64,
     /// Steps done and time reached after it.
     pub clock: MeniscusClock,
+    /// Whether the force of the mesh was computed anew, 0 or 1; always 1 if none is held.
+    pub refreshed: u32,
 }
 
 impl From<Step> for MeniscusStep {
     fn from(step: Step) -> Self {
-        Self { length: step.length, largest_force: step.largest_force, clock: step.clock.into() }
+        Self {
+            length: step.length,
+            largest_force: step.largest_force,
+            clock: step.clock.into(),
+            refreshed: u32::from(step.refreshed),
+        }
     }
 }
 
