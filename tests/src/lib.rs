@@ -4,6 +4,7 @@
 //! `--release` then.
 
 pub mod arrays;
+pub mod checkpoints;
 pub mod field;
 pub mod figures;
 pub mod fits;

@@ -48,6 +48,7 @@ macro_rules! replay_each {
 
 replay_each!(
     assignment,
+    checkpoint,
     configuration,
     golden,
     mesh_solve,

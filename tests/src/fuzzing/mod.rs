@@ -11,6 +11,7 @@
 
 mod assignment;
 mod bytes;
+mod checkpoint;
 mod configuration;
 mod golden;
 mod mesh_solve;
@@ -21,6 +22,7 @@ mod positions;
 mod step;
 
 pub use assignment::assignment;
+pub use checkpoint::checkpoint;
 pub use configuration::configuration;
 pub use golden::golden;
 pub use mesh_solve::mesh_solve;
@@ -34,8 +36,9 @@ pub use step::step;
 pub type Target = fn(&[u8]);
 
 /// Every target with the name of its folder in the corpus.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 10] = [
     ("assignment", assignment),
+    ("checkpoint", checkpoint),
     ("configuration", configuration),
     ("golden", golden),
     ("mesh_solve", mesh_solve),
