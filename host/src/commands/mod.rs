@@ -90,6 +90,8 @@ enum CommandError {
     NoState(PathBuf),
     #[error("{}: {found}; a golden file needs at least one record", path.display())]
     GoldenRecords { path: PathBuf, found: &'static str },
+    #[error("--stages {step}: the run begins after step {start}; name a later step")]
+    StageBeforeStart { step: u64, start: u64 },
     #[error("standard output cannot be written: {0}")]
     Output(#[from] std::io::Error),
 }

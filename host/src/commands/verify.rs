@@ -3,19 +3,25 @@
 use super::machinery::MachineryArguments;
 use super::{CommandError, Reporter, Verdict};
 use crate::configuration::Configuration;
-use crate::golden::{Difference, Golden};
+use crate::engine::{Engine, Trace};
+use crate::golden::{Difference, Golden, Record};
 use crate::simulation::Simulation;
-use crate::verification::{compare, compare_with_core};
+use crate::verification::{Contradiction, compare, first_contradiction, reversed};
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
     /// A golden file, as `run` writes it.
     golden: PathBuf,
-    /// If a record differs, run up to it in this engine and in the scalar core, with the discs stored in two orders, and
-    /// compare every step: this tells whether the program contradicts itself, and where first.
+    /// If a record differs, run from the one before it to it in two engines, with the discs stored in two orders, and
+    /// compare every stage of every step: this tells whether the program contradicts itself, and in which stage first.
     #[arg(long)]
     bisect: bool,
+    /// Compare nothing; print the digest of what each stage of this step (counted from 1) hands on, to be compared with
+    /// what another machine prints.
+    #[arg(long, value_name = "STEP", value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "bisect")]
+    stages: Option<u64>,
     #[command(flatten)]
     machinery: MachineryArguments,
 }
@@ -31,6 +37,9 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         let configuration = Configuration::from_text(&name, &golden.configuration, &[])?;
         Ok(Simulation::with_machinery(configuration, machinery)?)
     };
+    if let Some(step) = arguments.stages {
+        return print_stages(&mut simulation()?.engine, step, reporter);
+    }
     let mut agreed = None;
     let difference = compare(&golden, &mut simulation()?.engine, |record| {
         agreed = Some(record.step);
@@ -43,11 +52,15 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         return Ok(Verdict::Ok);
     };
     reporter.text(&describe(&golden, agreed, &difference))?;
-    let within = if arguments.bisect { bisect(simulation()?, difference.step)? } else { None };
-    if arguments.bisect {
-        reporter.text(&describe_within(within.as_ref(), difference.step, agreed))?;
-    }
+    let search = if arguments.bisect {
+        let search = bisect(simulation()?, &golden, difference.step, agreed, reporter)?;
+        reporter.text(&search.describe(difference.step, agreed))?;
+        Some(search)
+    } else {
+        None
+    };
     reporter.json(|| {
+        let contradiction = search.as_ref().and_then(|search| search.contradiction.as_ref());
         serde_json::json!({
             "equal": false,
             "step": difference.step,
@@ -55,7 +68,9 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
             "equal_to_step": agreed,
             "minted_by": golden.version,
             "bisected": arguments.bisect,
-            "contradiction": within.map(|difference| difference.to_string()),
+            "first_differing_step": contradiction.map(|contradiction| contradiction.step),
+            "contradiction": contradiction.map(ToString::to_string),
+            "other_engine_gives_the_record": search.as_ref().map(|search| search.other_is_right),
         })
     })?;
     Ok(Verdict::Different)
@@ -70,19 +85,98 @@ fn describe(golden: &Golden, agreed: Option<u64>, difference: &Difference) -> St
     format!("different: {difference}\n{before}\nminted by meniscus {minted}, this is {this}\n")
 }
 
-fn bisect(simulation: Simulation, last: u64) -> Result<Option<Difference>, CommandError> {
-    Ok(compare_with_core(simulation, last)?)
+/// What running two engines side by side has shown.
+struct Search {
+    /// The engine that was asked for, and the other, in words.
+    engines: [&'static str; 2],
+    contradiction: Option<Contradiction>,
+    /// Step at which they began.
+    begun: u64,
+    /// Whether the other engine gives the record that this one does not.
+    other_is_right: bool,
 }
 
-fn describe_within(within: Option<&Difference>, last: u64, agreed: Option<u64>) -> String {
-    match within {
-        Some(difference) => {
-            format!("this program contradicts itself, the core with discs stored in reverse: {difference}\n")
+impl Search {
+    fn describe(&self, last: u64, agreed: Option<u64>) -> String {
+        let first = agreed.map_or(1, |step| step + 1);
+        let [this, other] = self.engines;
+        let right = |yes: bool| if yes { "gives" } else { "does not give either" };
+        match &self.contradiction {
+            Some(contradiction) => format!(
+                "this program contradicts itself, --engine {this} and --engine {other}: {contradiction}\n\
+                 --engine {other} {} the record of step {last}\n",
+                right(self.other_is_right)
+            ),
+            None if last <= self.begun => "the state that the run starts from differs already\n".to_owned(),
+            None if first >= last => format!(
+                "this program agrees with itself in every stage up to step {last}, which is the first that differs from \
+                 where the file came from: to see in which stage, compare what meniscus verify FILE --stages {last} \
+                 prints here and there\n"
+            ),
+            None => format!(
+                "this program agrees with itself in every stage of every step; the first difference lies in steps {first} \
+                 to {last}: mint these with --every 1 where the file came from to see which\n"
+            ),
         }
-        None => format!(
-            "this program agrees with itself at every step; the first difference lies in steps {} to {last}: \
-             mint these with --every 1 where the file came from to see which\n",
-            agreed.map_or(0, |step| step + 1)
-        ),
     }
+}
+
+/// Runs from the last record that is equal to the one that differs, in the engine asked for and in the other.
+fn bisect(
+    simulation: Simulation,
+    golden: &Golden,
+    last: u64,
+    agreed: Option<u64>,
+    reporter: &Reporter<'_>,
+) -> Result<Search, CommandError> {
+    let Simulation { mut engine, configuration, .. } = simulation;
+    if let Some(agreed) = agreed {
+        advance(&mut engine, agreed)?;
+    }
+    let mut other = reversed(&engine, &configuration)?;
+    let engines = [engine.kind().word(), other.kind().word()];
+    let step = engine.clock().step;
+    reporter
+        .detail(&format!("comparing --engine {} with --engine {} from step {step}", engines[0], engines[1]));
+    let contradiction = first_contradiction(&mut engine, &mut other, last)?;
+    advance(&mut other, last)?;
+    let found = Record::from(other.state().digest_by_field());
+    let expected = golden.records.iter().find(|record| record.step == last);
+    let other_is_right = expected.is_some_and(|expected| expected.difference(&found).is_none());
+    Ok(Search { engines, contradiction, begun: step, other_is_right })
+}
+
+fn advance(engine: &mut Engine, step: u64) -> Result<(), CommandError> {
+    while engine.clock().step < step {
+        engine.step()?;
+    }
+    Ok(())
+}
+
+/// Prints length and digest of what each stage of a step hands on.
+fn print_stages(
+    engine: &mut Engine,
+    step: u64,
+    reporter: &mut Reporter<'_>,
+) -> Result<Verdict, CommandError> {
+    let start = engine.clock().step;
+    if step <= start {
+        return Err(CommandError::StageBeforeStart { step, start });
+    }
+    advance(engine, step - 1)?;
+    let mut trace = Trace::default();
+    engine.traced_step(&mut trace)?;
+    let mut table = String::new();
+    for (stage, digest) in trace.digests() {
+        // Writing to a String cannot fail.
+        let _ = writeln!(table, "{:<15}{} {digest}", stage.to_string(), digest.length);
+    }
+    reporter.text(&table)?;
+    reporter.json(|| {
+        let stages = trace.digests().map(|(stage, digest)| {
+            serde_json::json!({ "stage": stage.to_string(), "length": digest.length, "digest": digest.to_string() })
+        });
+        serde_json::json!({ "step": step, "stages": stages.collect::<Vec<_>>() })
+    })?;
+    Ok(Verdict::Ok)
 }

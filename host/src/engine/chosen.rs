@@ -1,13 +1,13 @@
 //! The stages an engine was asked to work with.
 
-use super::{EngineError, Kind, Machinery};
+use super::{EngineError, Kind, Machinery, ShowsField};
 use meniscus_core::assignment::Crowded;
 use meniscus_core::ermak::{Displacement, HalfBox};
 use meniscus_core::forces::Forces;
 use meniscus_core::memory::Memory;
 use meniscus_core::parameters::Parameters;
 use meniscus_core::stages::{Scalar, Stages};
-use meniscus_core::transform::AnySize;
+use meniscus_core::transform::{AnySize, Complex32};
 use meniscus_wide::stages::Wide;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -87,5 +87,18 @@ impl Stages for ChosenStages {
 
     fn displace(&mut self, memory: &mut Memory<'_>) {
         chosen!(self.displace(memory));
+    }
+}
+
+impl ShowsField for ChosenStages {
+    fn field<'a>(&'a self, grid: usize, memory: &'a Memory<'_>) -> Box<dyn Iterator<Item = Complex32> + 'a> {
+        match self {
+            Self::Core(stages) => stages.field(grid, memory),
+            Self::Host(stages) => {
+                let field = stages.field();
+                let rows = field.nodes.chunks(field.pitch).take(grid);
+                Box::new(rows.flat_map(move |row| row.iter().take(grid).copied()))
+            }
+        }
     }
 }

@@ -17,13 +17,15 @@
 mod chosen;
 mod error;
 mod reuse;
+mod trace;
 
 use chosen::ChosenStages;
 pub use error::EngineError;
 pub use reuse::MeshReuse;
+pub use trace::{ShowsField, Stage, StageDifference, Trace, Traced};
 
 use meniscus_core::digest::State;
-use meniscus_core::dynamics::{Clock, Disc, Dynamics, InitError, Memory, Step};
+use meniscus_core::dynamics::{Clock, Disc, Dynamics, InitError, Memory, Step, StepError};
 use meniscus_core::influence::influence_length;
 use meniscus_core::mesh::LINES;
 use meniscus_core::near_part::{Segment, table_length};
@@ -201,10 +203,26 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Step`]; the state is then as it was.
     pub fn step(&mut self) -> Result<Step, EngineError> {
+        self.step_by(|dynamics, stages, memory| dynamics.step(stages, memory))
+    }
+
+    /// As [`Engine::step`]; what the stages hand on goes into `trace`.
+    ///
+    /// # Errors
+    /// [`EngineError::Step`]; the state is then as it was, and the trace ends where the step did.
+    pub fn traced_step(&mut self, trace: &mut Trace) -> Result<Step, EngineError> {
+        let step =
+            self.step_by(|dynamics, stages, memory| dynamics.step(&mut Traced::new(stages, trace), memory))?;
+        trace.note_step(&step);
+        Ok(step)
+    }
+
+    fn step_by(
+        &mut self,
+        step: impl FnOnce(&mut Dynamics, &mut ChosenStages, &mut Memory<'_>) -> Result<Step, StepError> + Send,
+    ) -> Result<Step, EngineError> {
         let (clock, was_held) = (self.clock(), self.dynamics.is_held());
-        let step = self
-            .work(|dynamics, stages, memory| dynamics.step(stages, memory))
-            .map_err(|error| EngineError::Step(error, clock))?;
+        let step = self.work(step).map_err(|error| EngineError::Step(error, clock))?;
         self.reuse.count(&step);
         if was_held && step.refreshed {
             self.reuse.compare(&self.held_x, &self.fresh_x);

@@ -97,6 +97,12 @@ impl Wide {
         self.is_heap
     }
 
+    /// The field on the nodes that the last step which solved for it found.
+    #[must_use]
+    pub fn field(&self) -> Field<'_> {
+        Field { nodes: self.solver.field(), pitch: self.solver.pitch() }
+    }
+
     fn motion(&self) -> Motion {
         Motion { level: self.level, pieces: self.division.discs }
     }
@@ -179,7 +185,7 @@ impl Stages for Wide {
             assignment.deposit((x, y), nodes)?;
         }
         self.solver.solve(&Tables { influence, gradient }, nodes, is_signed, lines);
-        let field = Field { nodes: self.solver.field(), pitch: self.solver.pitch() };
+        let field = self.field();
         if is_signed {
             assignment.gather_strengths((x, y), strengths, field, (force_x, force_y));
         } else {

@@ -1,4 +1,4 @@
-//! Repeating a golden run.
+//! Repeating a golden run, and finding where two engines part.
 //!
 //! ```
 //! use meniscus::configuration::Configuration;
@@ -17,9 +17,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::engine::{Engine, EngineError, Kind, Machinery};
+mod search;
+
+pub use search::{Contradiction, Parting, Steps, first_contradiction, reversed};
+
+use crate::engine::{Engine, EngineError};
 use crate::golden::{Difference, Golden, Record};
-use crate::simulation::{Simulation, SimulationError};
 
 /// Runs `engine` from its state to the last record of `golden` and compares at each record; `report` sees the
 /// records that agree.
@@ -42,31 +45,6 @@ pub fn compare(
             return Ok(Some(difference));
         }
         report(record);
-    }
-    Ok(None)
-}
-
-/// Runs the simulation twice, in its engine and in the core's with the discs stored in reverse, up to step `last`,
-/// comparing after every step: by contract no step differs.
-///
-/// # Errors
-/// A [`SimulationError`] when the run cannot be set up or a step is refused.
-pub fn compare_with_core(simulation: Simulation, last: u64) -> Result<Option<Difference>, SimulationError> {
-    let Simulation { configuration, mut engine, .. } = simulation;
-    let reversed = engine.discs().into_iter().rev();
-    let core = Machinery { kind: Kind::Core, threads: 1 };
-    let mut other = Engine::with_machinery(core, &configuration.parameters(), engine.clock(), reversed)?;
-    if let Some(held) = engine.held() {
-        other.hold(&held)?;
-    }
-    while engine.clock().step < last {
-        engine.step()?;
-        other.step()?;
-        let [expected, found] =
-            [&engine, &other].map(|engine| Record::from(engine.state().digest_by_field()));
-        if let Some(difference) = expected.difference(&found) {
-            return Ok(Some(difference));
-        }
     }
     Ok(None)
 }
