@@ -3,8 +3,10 @@
 use super::machinery::MachineryArguments;
 use super::progress::Progress;
 use super::{CommandError, Reporter, Source, Verdict};
+use crate::configuration::Start;
 use crate::run::{GOLDEN_INTERVAL, GoldenRequest, Outcome, Run, Stop};
 use crate::simulation::Simulation;
+use crate::start::overlap_line;
 use crate::strengths::{Strengths, all_one};
 use meniscus_core::units::time_from_units;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -85,6 +87,11 @@ fn announce(simulation: &Simulation, directory: &Path, reporter: &Reporter<'_>) 
     ));
     reporter.detail(&configuration.scheme_line());
     if let Some(line) = configuration.mesh_refresh_line() {
+        reporter.note(&line);
+    }
+    if let (Start::File { path, .. }, true) = (&configuration.start, system.repulsion)
+        && let Some(line) = overlap_line(path, &simulation.torus, &simulation.engine.positions())
+    {
         reporter.note(&line);
     }
     let (strengths, count) = (&configuration.strengths, system.particles);

@@ -25,6 +25,7 @@
 mod disc;
 mod file;
 mod lattice;
+mod overlap;
 mod random;
 mod rings;
 mod sequential;
@@ -32,6 +33,7 @@ mod sequential;
 pub use disc::disc;
 pub use file::{file, settle_strengths};
 pub use lattice::{hexagonal_lattice, square_lattice};
+pub use overlap::{Overlap, first_overlap, overlap_line};
 pub use random::random;
 pub use rings::rings;
 pub use sequential::{ATTEMPTS_PER_DISC, CLOSE_PACKING, SATURATION};
