@@ -4,7 +4,8 @@
 
 use meniscus::observables::clusters::Clusters;
 use meniscus::observables::neighbours::squared_distance;
-use meniscus_cases::{CASES, Case, ROOM, discs, longest_table, run};
+use meniscus_cases::{CASES, Case, Engine64, ROOM, discs, longest_table, run};
+use meniscus_core::dynamics::Disc;
 use meniscus_core::engine::Engine;
 use meniscus_core::fields::Fields;
 use meniscus_core::near_part::LARGEST_TABLE;
@@ -27,7 +28,7 @@ fn lines_of(case: &Case) -> usize {
 // With as short a table of the near part as the microcontrollers have.
 static ENGINE_16: Mutex<Engine<{ ROOM[0].0 }, { ROOM[0].1 }, { longest_table(16) }>> =
     Mutex::new(Engine::new());
-static ENGINE_64: Mutex<Engine<{ ROOM[1].0 }, { ROOM[1].1 }>> = Mutex::new(Engine::new());
+static ENGINE_64: Mutex<Engine64> = Mutex::new(Engine64::new());
 static ENGINE_128: Mutex<Engine<{ ROOM[2].0 }, { ROOM[2].1 }>> = Mutex::new(Engine::new());
 static ENGINE_512: Mutex<Engine<{ ROOM[3].0 }, { ROOM[3].1 }>> = Mutex::new(Engine::new());
 
@@ -41,8 +42,8 @@ fn cases_of(grid: usize) -> impl Iterator<Item = &'static Case> {
 }
 
 /// Runs all cases of a mesh; tells how often each of them crossed the border.
-fn have_the_golden_lines<const M: usize, const N: usize, const SEGMENTS: usize>(
-    engine: &Mutex<Engine<M, N, SEGMENTS>>,
+fn have_the_golden_lines<const M: usize, const N: usize, const SEGMENTS: usize, const HELD: usize>(
+    engine: &Mutex<Engine<M, N, SEGMENTS, HELD>>,
 ) -> Vec<u32> {
     let mut engine = engine.lock().unwrap();
     let run_one = |case: &Case| {
@@ -109,6 +110,19 @@ fn the_cases_have_every_assignment_of_the_split_force_and_unequal_strengths_in_a
         let mut cases = CASES.iter().filter(|case| case.parameters.method == method);
         assert!(cases.any(|case| case.parameters.fields != Fields::NONE && !case.has_equal_strengths()));
     }
+}
+
+#[test]
+fn the_case_of_held_mesh_forces_computes_them_anew_now_and_then() {
+    let mut held = CASES.iter().filter(|case| case.parameters.mesh_refresh > 0.0);
+    let (case, mut engine) = (held.next().unwrap(), Box::new(Engine64::new()));
+    assert!(held.next().is_none() && !case.has_equal_strengths());
+    let strengths = case.strengths.iter().cycle();
+    let start = discs(case.start).unwrap().zip(strengths);
+    let start = start.map(|((id, position), &strength)| Disc { id, position, strength });
+    engine.init(&case.parameters, start).unwrap();
+    let refreshed = (0..case.steps).filter(|_| engine.step().unwrap().refreshed).count();
+    assert!(refreshed >= 3 && refreshed <= case.steps as usize / 3, "{refreshed} of {}", case.steps);
 }
 
 /// The first state of a case.

@@ -14,7 +14,7 @@ use meniscus_core::digest::{Digest, FORMAT_VERSION, MAGIC};
 use meniscus_core::dynamics::{Clock, Disc, InitError, StepError};
 use meniscus_core::engine::Engine;
 use meniscus_core::fields::Fields;
-use meniscus_core::near_part::table_length;
+use meniscus_core::near_part::{LARGEST_TABLE, table_length};
 use meniscus_core::pair_force::near_cutoff;
 use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise, Parameters};
 use meniscus_core::torus::Position;
@@ -59,6 +59,9 @@ const MIXED: &[i32] = &[DISC as i32, -(DISC as i32), 1_500_000, -314_159, 0, 3 *
 /// Room for discs in the engines that the cases need: (M, N) for M = 16, 64, 128 and 512.
 pub const ROOM: [(usize, usize); 4] = [(16, 32), (64, 200), (128, 500), (512, 600)];
 
+/// An engine for the cases of 64 nodes, with room to hold mesh forces.
+pub type Engine64 = Engine<{ ROOM[1].0 }, { ROOM[1].1 }, LARGEST_TABLE, { ROOM[1].1 }>;
+
 const SMALL: Parameters =
     Parameters { side: 16.0, capillary_strength: 5.0, capillary_length: 8.0, grid: 16, ..Parameters::PAPER };
 const MIDDLE: Parameters =
@@ -80,7 +83,7 @@ const fn trapped(parameters: Parameters) -> Parameters {
 }
 
 /// Every case, small ones first.
-pub const CASES: [Case; 21] = [
+pub const CASES: [Case; 22] = [
     Case {
         name: "16-tsc-paper-spectral-uniform",
         parameters: SMALL,
@@ -240,6 +243,13 @@ pub const CASES: [Case; 21] = [
         steps: 100,
     },
     Case {
+        name: "64-order-5-split-uniform-strengths-held",
+        parameters: Parameters { mesh_refresh: 0.3, seed: 9, ..split(MIDDLE, Assignment::Order5, 0.55, 6.5) },
+        start: CLUSTERS,
+        strengths: MIXED,
+        steps: 100,
+    },
+    Case {
         name: "128-tsc-paper-spectral-uniform",
         parameters: LARGE,
         start: COLLAPSE,
@@ -321,9 +331,9 @@ impl From<fmt::Error> for CaseError {
 ///
 /// # Errors
 /// A [`CaseError`].
-pub fn run<const M: usize, const N: usize, const SEGMENTS: usize>(
+pub fn run<const M: usize, const N: usize, const SEGMENTS: usize, const HELD: usize>(
     case: &Case,
-    engine: &mut Engine<M, N, SEGMENTS>,
+    engine: &mut Engine<M, N, SEGMENTS, HELD>,
     output: &mut impl Write,
 ) -> Result<(), CaseError> {
     let strengths = case.strengths.iter().cycle();

@@ -18,9 +18,9 @@ use meniscus_core::transform::{Complex32, FixedSize, LineTransform};
 use sha2::{Digest as _, Sha256};
 
 /// Prints the digest of every stage at the engine's present state. Only scratch memory is written to.
-pub(crate) fn print_all<const M: usize, const N: usize, const SEGMENTS: usize>(
+pub(crate) fn print_all<const M: usize, const N: usize, const SEGMENTS: usize, const HELD: usize>(
     case: &Case,
-    engine: &mut Engine<M, N, SEGMENTS>,
+    engine: &mut Engine<M, N, SEGMENTS, HELD>,
     output: &mut impl Write,
 ) -> Result<(), CaseError> {
     let parameters = &case.parameters;

@@ -7,13 +7,13 @@ mod system;
 
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
-use meniscus_cases::{CASES, CaseError, ROOM, run};
+use meniscus_cases::{CASES, CaseError, Engine64, ROOM, run};
 use meniscus_core::engine::Engine;
 
 /// An engine for each mesh of the cases.
 struct Engines {
     of_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }>,
-    of_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }>,
+    of_64: Engine64,
     of_128: Engine<{ ROOM[2].0 }, { ROOM[2].1 }>,
     of_512: Engine<{ ROOM[3].0 }, { ROOM[3].1 }>,
 }

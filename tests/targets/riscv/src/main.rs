@@ -7,11 +7,11 @@ mod machine;
 use core::fmt::Write;
 use core::panic::PanicInfo;
 use machine::{Output, exit};
-use meniscus_cases::{CASES, CaseError, ROOM, run};
+use meniscus_cases::{CASES, CaseError, Engine64, ROOM, run};
 use meniscus_core::engine::Engine;
 
 static mut ENGINE_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }> = Engine::new();
-static mut ENGINE_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }> = Engine::new();
+static mut ENGINE_64: Engine64 = Engine64::new();
 static mut ENGINE_128: Engine<{ ROOM[2].0 }, { ROOM[2].1 }> = Engine::new();
 static mut ENGINE_512: Engine<{ ROOM[3].0 }, { ROOM[3].1 }> = Engine::new();
 

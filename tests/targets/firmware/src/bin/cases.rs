@@ -4,6 +4,8 @@
 
 use core::fmt::Write;
 use cortex_m_rt::entry;
+#[cfg(large_memory)]
+use meniscus_cases::Engine64;
 use meniscus_cases::{CASES, ROOM, longest_table, run};
 use meniscus_core::engine::Engine;
 use meniscus_firmware::{exit, output};
@@ -13,7 +15,7 @@ fn main() -> ! {
     // The entry point runs once and turns each `static mut` into the only reference to it.
     static mut ENGINE_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }, { longest_table(16) }> = Engine::new();
     #[cfg(large_memory)]
-    static mut ENGINE_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }> = Engine::new();
+    static mut ENGINE_64: Engine64 = Engine64::new();
     #[cfg(large_memory)]
     static mut ENGINE_128: Engine<{ ROOM[2].0 }, { ROOM[2].1 }> = Engine::new();
 

@@ -5,14 +5,14 @@
 
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
-use meniscus_cases::{CASES, CaseError, ROOM, run};
+use meniscus_cases::{CASES, CaseError, Engine64, ROOM, run};
 use meniscus_core::engine::Engine;
 
 /// Room for the text, about three times what the cases print.
 const ROOM_FOR_TEXT: usize = 64 * 1024;
 
 static mut ENGINE_16: Engine<{ ROOM[0].0 }, { ROOM[0].1 }> = Engine::new();
-static mut ENGINE_64: Engine<{ ROOM[1].0 }, { ROOM[1].1 }> = Engine::new();
+static mut ENGINE_64: Engine64 = Engine64::new();
 static mut ENGINE_128: Engine<{ ROOM[2].0 }, { ROOM[2].1 }> = Engine::new();
 static mut ENGINE_512: Engine<{ ROOM[3].0 }, { ROOM[3].1 }> = Engine::new();
 static mut OUTPUT: Output = Output { text: [0; ROOM_FOR_TEXT], length: 0 };
