@@ -97,15 +97,12 @@ impl Wide {
         self.is_heap
     }
 
-<<<<<<< HEAD
     /// The field on the nodes that the last step which solved for it found.
     #[must_use]
     pub fn field(&self) -> Field<'_> {
         Field { nodes: self.solver.field(), pitch: self.solver.pitch() }
     }
 
-=======
->>>>>>> cd5912f (Tests of the wide stages: a heap that drifts apart, held forces, stages of other parameters)
     fn motion(&self) -> Motion {
         Motion { level: self.level, pieces: self.division.discs }
     }
