@@ -12,6 +12,7 @@ pub mod configuration;
 pub mod engine;
 pub mod files;
 pub mod golden;
+pub mod memory;
 pub mod observables;
 pub mod run;
 pub mod simulation;

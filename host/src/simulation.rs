@@ -15,6 +15,7 @@
 use crate::configuration::{Configuration, Lattice, Start};
 use crate::engine::{Engine, EngineError, Machinery};
 use crate::files::state::State;
+use crate::memory::{self, MemoryError};
 use crate::start::{self, StartError};
 use meniscus_core::dynamics::{Clock, Disc};
 use meniscus_core::torus::{Torus, TorusError};
@@ -30,6 +31,9 @@ pub enum SimulationError {
     /// The engine refused them.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// There is not enough memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// The side is no side.
     #[error("system.box: the side {side} R0 is out of range")]
     Side {
@@ -69,6 +73,7 @@ impl Simulation {
         mut configuration: Configuration,
         machinery: Machinery,
     ) -> Result<Self, SimulationError> {
+        memory::check(&configuration)?;
         let torus = torus(&configuration)?;
         let State { positions, step, time, strengths, held } = initial_state(&configuration, &torus)?;
         if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {

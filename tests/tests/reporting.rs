@@ -143,3 +143,22 @@ fn a_result_that_cannot_be_written_is_an_error_and_the_run_is_there() {
     assert!(errors(&output).contains("error: standard output cannot be written: "), "{}", errors(&output));
     program.succeed(&["digest", "run"]);
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_run_that_memory_would_not_suffice_for_is_refused_before_it_asks() {
+    let program = program();
+    let large = "run table-1 --out never --set force.method=pm --set system.particles=4194304 \
+                 --set system.box=32768 --set mesh.grid=4096";
+    let output = program.shell(&format!("ulimit -v 500000; meniscus {large}"));
+    let said = errors(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    let bytes = "4194304 discs and a mesh of 4096 x 4096 nodes need at least 721";
+    assert!(said.starts_with(&format!("error: {bytes}")), "{said}");
+    assert!(said.contains("ulimit -v") && said.lines().count() == 1, "{said}");
+    assert!(!program.folder().join("never").exists());
+    // What fits is not refused: the same limit, a smaller mesh.
+    let small =
+        program.shell("ulimit -v 500000; meniscus run small.toml --until 0.01 --out small --threads 1");
+    assert!(small.status.success(), "{}", errors(&small));
+}
