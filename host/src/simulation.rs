@@ -70,12 +70,27 @@ impl Simulation {
     /// # Errors
     /// A [`SimulationError`].
     pub fn with_machinery(
-        mut configuration: Configuration,
+        configuration: Configuration,
         machinery: Machinery,
     ) -> Result<Self, SimulationError> {
         memory::check(&configuration)?;
         let torus = torus(&configuration)?;
-        let State { positions, step, time, strengths, held } = initial_state(&configuration, &torus)?;
+        let state = initial_state(&configuration, &torus)?;
+        Self::at(configuration, state, machinery)
+    }
+
+    /// A run that stands at `state`, wherever the configuration says that it started; otherwise as
+    /// [`Simulation::with_machinery`].
+    ///
+    /// # Errors
+    /// A [`SimulationError`].
+    pub fn at(
+        mut configuration: Configuration,
+        state: State,
+        machinery: Machinery,
+    ) -> Result<Self, SimulationError> {
+        let torus = torus(&configuration)?;
+        let State { positions, step, time, strengths, held } = state;
         if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {
             configuration.strengths = start::settle_strengths(configuration.strengths, strengths, path)?;
         }

@@ -187,12 +187,18 @@ fn motion() -> impl Strategy<Value = Motion> {
     })
 }
 
-fn output() -> impl Strategy<Value = Output> {
-    (times(), times(), times()).prop_map(|(observables, trajectory, snapshots)| Output {
-        observables,
-        trajectory,
-        snapshots,
-    })
+/// On the heap: the stack of a test is short.
+fn output() -> BoxedStrategy<Output> {
+    let steps = prop_oneof![Just(0), 1_u64..1000, Just(i64::MAX as u64)];
+    (times(), times(), times(), steps, times())
+        .prop_map(|(observables, trajectory, snapshots, checkpoint_steps, checkpoint_minutes)| Output {
+            observables,
+            trajectory,
+            snapshots,
+            checkpoint_steps,
+            checkpoint_minutes,
+        })
+        .boxed()
 }
 
 fn capillary_strength() -> impl Strategy<Value = f64> {

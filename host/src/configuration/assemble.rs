@@ -227,11 +227,14 @@ fn time(entries: &Entries, attracted: bool) -> Time {
 }
 
 fn output(entries: &Entries) -> Output {
-    let Output { observables, trajectory, snapshots } = Output::default();
+    let default = Output::default();
+    let real = |name, default| entries.real(name).unwrap_or(default);
     Output {
-        observables: entries.real("output.observables").unwrap_or(observables),
-        trajectory: entries.real("output.trajectory").unwrap_or(trajectory),
-        snapshots: entries.real("output.snapshots").unwrap_or(snapshots),
+        observables: real("output.observables", default.observables),
+        trajectory: real("output.trajectory", default.trajectory),
+        snapshots: real("output.snapshots", default.snapshots),
+        checkpoint_steps: entries.integer("output.checkpoint_steps").unwrap_or(default.checkpoint_steps),
+        checkpoint_minutes: real("output.checkpoint_minutes", default.checkpoint_minutes),
     }
 }
 

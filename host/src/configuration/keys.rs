@@ -134,7 +134,7 @@ pub const TABLES: &[Table] = &[
     Table { name: "motion", help: "Thermal motion and the step rule." },
     Table { name: "start", help: "Where the discs are at time zero; lengths in R0." },
     Table { name: "time", help: "When the run ends." },
-    Table { name: "output", help: "Intervals of what is written, in the unit of time.until; 0 for none." },
+    Table { name: "output", help: "Intervals of what is written; 0 for none." },
 ];
 
 /// Any finite number from 0 up.
@@ -468,6 +468,20 @@ pub const KEYS: &[Key] = &[
         unit: TIMES,
         default: "1",
         help: "Interval of the snapshots (pictures)",
+    },
+    Key {
+        name: "output.checkpoint_steps",
+        kind: Kind::Whole { least: 0, most: i64::MAX as u64 },
+        unit: "",
+        default: "0",
+        help: "Steps between checkpoints, from which `meniscus resume` goes on; 0 for none",
+    },
+    Key {
+        name: "output.checkpoint_minutes",
+        kind: FROM_ZERO,
+        unit: "minutes of wall time",
+        default: "10",
+        help: "Time between checkpoints; 0 for none but at the start and at the end",
     },
 ];
 

@@ -162,6 +162,13 @@ impl Configuration {
         write::to_toml(self)
     }
 
+    /// The first key, apart from `but`, whose value is another in `other`, or that is in one of the two alone; with both
+    /// values as TOML, None where the key does not apply.
+    #[must_use]
+    pub fn difference(&self, other: &Self, but: &[&str]) -> Option<(&'static str, [Option<String>; 2])> {
+        write::difference(self, other, but)
+    }
+
     /// What the engine needs.
     #[must_use]
     pub fn parameters(&self) -> Parameters {

@@ -162,7 +162,7 @@ pub const DEFAULT_JEANS_TIMES: f64 = 5.0;
 /// Default of `time.until` without attraction, R0²/D.
 pub const DEFAULT_DIFFUSION_TIMES: f64 = 10.0;
 
-/// Table `output`: intervals in the unit of `time.until`, 0 for none.
+/// Table `output`: intervals in the unit of `time.until` but for those of checkpoints; 0 for none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output {
     /// Interval of the rows of `observables.csv`.
@@ -171,10 +171,20 @@ pub struct Output {
     pub trajectory: f64,
     /// Interval of the snapshots (pictures).
     pub snapshots: f64,
+    /// Steps between checkpoints.
+    pub checkpoint_steps: u64,
+    /// Minutes of wall time between checkpoints.
+    pub checkpoint_minutes: f64,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { observables: 0.01, trajectory: 0.1, snapshots: 1.0 }
+        Self {
+            observables: 0.01,
+            trajectory: 0.1,
+            snapshots: 1.0,
+            checkpoint_steps: 0,
+            checkpoint_minutes: 10.0,
+        }
     }
 }

@@ -42,6 +42,18 @@ fn write_key(text: &mut String, configuration: &Configuration, key: &Key) {
     }
 }
 
+/// The first key, apart from `but`, that one of two configurations has and not the other, or with another value: its
+/// name and the values, None where the key does not apply.
+pub(super) fn difference(
+    one: &Configuration,
+    other: &Configuration,
+    but: &[&str],
+) -> Option<(&'static str, [Option<String>; 2])> {
+    let values = |key: &Key| (key.name, [one, other].map(|configuration| value(configuration, key.name)));
+    let mut compared = KEYS.iter().filter(|key| !but.contains(&key.name)).map(values);
+    compared.find(|(_, [one, other])| one != other)
+}
+
 /// The value of a key as TOML; None if the key does not apply.
 fn value(configuration: &Configuration, name: &str) -> Option<String> {
     let Configuration { physical, system, force, mesh, fields, motion, start, time, output, .. } =
@@ -87,6 +99,8 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
         "output.observables" => real(output.observables),
         "output.trajectory" => real(output.trajectory),
         "output.snapshots" => real(output.snapshots),
+        "output.checkpoint_steps" => output.checkpoint_steps.to_string(),
+        "output.checkpoint_minutes" => real(output.checkpoint_minutes),
         _ => return None,
     })
 }

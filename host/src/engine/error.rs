@@ -17,6 +17,14 @@ pub enum EngineError {
     /// The threads could not be started.
     #[error("{0} threads cannot be started; ask for fewer by --threads")]
     Threads(usize),
+    /// There is not one pair of crossings for each disc.
+    #[error("the crossings of {found} discs were given, those of {expected} are needed")]
+    Crossings {
+        /// Discs whose crossings were given.
+        found: usize,
+        /// Discs there are.
+        expected: usize,
+    },
     /// The forces could not be computed.
     #[error("the forces cannot be computed: {}", step_message(StepError::from(*.0)))]
     Force(ForceError),

@@ -198,6 +198,26 @@ impl Engine {
             .map_err(EngineError::Init)
     }
 
+    /// Goes on with the borders that each disc has crossed along x and y before, in the order of ids.
+    ///
+    /// # Errors
+    /// [`EngineError::Crossings`] unless there is one for each disc.
+    pub fn count_crossings_from(&mut self, crossings: &[[i32; 2]]) -> Result<(), EngineError> {
+        if crossings.len() != self.slots.len() {
+            return Err(EngineError::Crossings { found: crossings.len(), expected: self.slots.len() });
+        }
+        for (&slot, &[x, y]) in self.slots.iter().zip(crossings) {
+            self.crossings_x[slot as usize] = x;
+            self.crossings_y[slot as usize] = y;
+        }
+        Ok(())
+    }
+
+    /// Goes on with what an engine before this one has told by [`Engine::mesh_reuse`].
+    pub fn count_mesh_reuse_from(&mut self, reuse: MeshReuse) {
+        self.reuse = reuse;
+    }
+
     /// Does one step and tells what happened.
     ///
     /// # Errors
@@ -327,7 +347,7 @@ impl Engine {
         discs.map(|((id, position), strength)| Disc { id, position, strength }).collect()
     }
 
-    /// How many borders each disc has crossed along x and y since the run was set up, in the order of ids.
+    /// How many borders each disc has crossed along x and y since the run began, in the order of ids.
     #[must_use]
     pub fn crossings(&self) -> Vec<[i32; 2]> {
         let of = |slot: u32| [self.crossings_x[slot as usize], self.crossings_y[slot as usize]];

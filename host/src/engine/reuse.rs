@@ -1,14 +1,15 @@
 //! How much work held mesh forces save, and how far they are off.
 
 use meniscus_core::dynamics::Step;
+use serde::{Deserialize, Serialize};
 
 /// The steps of a run that holds mesh forces (`force.mesh_refresh`), and the error of what it held.
 ///
 /// Whenever forces are computed anew, those that they take the place of are as old as they get: the difference, rms over
 /// all discs and all such moments, relative to the rms of the fresh mesh force, is the error measured.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshReuse {
-    /// Steps done by this engine.
+    /// Steps done.
     pub steps: u64,
     /// Steps in which the force of the mesh was computed.
     pub transforms: u64,

@@ -135,7 +135,7 @@ impl Run {
             return Err(RunError::GoldenExists(golden_request.path));
         }
         let configuration = &simulation.configuration;
-        let Output { observables, trajectory, snapshots } = configuration.output;
+        let Output { observables, trajectory, snapshots, .. } = configuration.output;
         let (scale, now) = (configuration.time_scale(), simulation.engine.clock().time);
         let schedule = |interval: f64| Schedule::new(interval * scale, now);
         let run = Self {
