@@ -8,6 +8,7 @@ mod machinery;
 mod presets;
 mod progress;
 mod reporter;
+mod resume;
 mod run;
 mod verify;
 
@@ -37,6 +38,8 @@ struct Arguments {
 enum Command {
     /// Run a simulation: by default Table I of the paper to five Jeans' times.
     Run(run::Arguments),
+    /// Go on with a run that was stopped, from its newest checkpoint, as if it had not been.
+    Resume(resume::Arguments),
     /// Print the force on every disc of a file of positions: `id,x,y,fx,fy` in R0 and kBT/R0.
     Forces(forces::Arguments),
     /// Print length and SHA-256 of a state: of a run's directory, or of a state file.
@@ -110,6 +113,7 @@ pub fn main() -> ExitCode {
     let reporter = &mut Reporter::new(arguments.reporting, output);
     let result = match &arguments.command {
         Command::Run(arguments) => run::run(arguments, reporter),
+        Command::Resume(arguments) => resume::run(arguments, reporter),
         Command::Forces(arguments) => forces::run(arguments, reporter),
         Command::Digest(arguments) => digest::run(arguments, reporter),
         Command::Verify(arguments) => verify::run(arguments, reporter),

@@ -28,9 +28,8 @@ pub(super) struct Arguments {
     /// When to end, in Jeans' times (in R0²/D without attraction).
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: Option<f64>,
-    /// Stop after this many seconds of wall time, the state written.
-    #[arg(long, value_name = "S", value_parser = wall_time, allow_negative_numbers = true)]
-    max_wall: Option<Duration>,
+    #[command(flatten)]
+    wall_time: WallTime,
     #[command(flatten)]
     machinery: MachineryArguments,
     /// Where to write the golden file, which must not exist, instead of `golden.toml` in the directory.
@@ -41,7 +40,23 @@ pub(super) struct Arguments {
     every: u64,
 }
 
+/// `--max-wall`.
+#[derive(Debug, clap::Args)]
+pub(super) struct WallTime {
+    /// Stop after this many seconds of wall time, a checkpoint written by then.
+    #[arg(long, value_name = "S", value_parser = wall_time, allow_negative_numbers = true)]
+    max_wall: Option<Duration>,
+}
+
+impl WallTime {
+    /// When the wall time is over, as of now.
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        self.max_wall.and_then(|limit| Instant::now().checked_add(limit))
+    }
+}
+
 pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
+    let deadline = arguments.wall_time.deadline();
     let seed = arguments.seed.map(|seed| format!("seed={seed}"));
     let until = arguments.until.map(|until| format!("time.until={}", toml_edit::Value::from(until)));
     let configuration = arguments.source.read(seed.into_iter().chain(until))?;
@@ -55,30 +70,31 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     };
     let simulation = Simulation::with_machinery(configuration, arguments.machinery.read()?)?;
     announce(&simulation, &directory, reporter);
-    let density = simulation.configuration.mean_density();
+    let run = Run::create(simulation, &directory, golden)?.until(deadline);
+    go(run, reporter)
+}
+
+/// Runs to the end, or until somebody stops it, and tells how it ended.
+pub(super) fn go(run: Run, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let watch = stop_signal()?;
-    let first_step = simulation.engine.clock().step;
-    let mut progress = Progress::new(&simulation, reporter);
-    let run = Run::create(simulation, &directory, golden)?;
+    let first_step = run.simulation().engine.clock().step;
+    let mut progress = Progress::new(run.simulation(), reporter);
     let begun = Instant::now();
     let outcome = run.to_end(|simulation| {
         progress.show(simulation, reporter);
-        if watch.load(Ordering::Relaxed) {
-            return Some(Stop::Interrupted);
-        }
-        arguments.max_wall.filter(|&limit| begun.elapsed() >= limit).map(|_| Stop::WallTime)
+        watch.load(Ordering::Relaxed).then_some(Stop::Interrupted)
     });
     progress.finish();
     let outcome = outcome?;
     let seconds = begun.elapsed().as_secs_f64();
     let steps = outcome.clock.step - first_step;
     reporter.detail(&format!("{steps} steps in {seconds:.1} s, {:.0} steps/s", steps as f64 / seconds));
-    conclude(&outcome, density, reporter)?;
+    conclude(&outcome, reporter)?;
     Ok(Verdict::Ok)
 }
 
 /// Tells what is about to be run.
-fn announce(simulation: &Simulation, directory: &Path, reporter: &Reporter<'_>) {
+pub(super) fn announce(simulation: &Simulation, directory: &Path, reporter: &Reporter<'_>) {
     let configuration = &simulation.configuration;
     let system = &configuration.system;
     reporter.detail(&format!(
@@ -110,20 +126,15 @@ fn announce(simulation: &Simulation, directory: &Path, reporter: &Reporter<'_>) 
     reporter.note(&format!("results in {}", directory.display()));
 }
 
-/// Tells how the run ended; if early, how to go on with a density of `density` (R0⁻²).
-fn conclude(outcome: &Outcome, density: f64, reporter: &mut Reporter<'_>) -> std::io::Result<()> {
+/// Tells how the run ended; if early, how to go on.
+pub(super) fn conclude(outcome: &Outcome, reporter: &mut Reporter<'_>) -> std::io::Result<()> {
     if let Some(stop) = outcome.stop {
         let why = match stop {
             Stop::Interrupted => "interrupted",
             Stop::WallTime => "the wall time is over",
         };
-        let file = |name| quoted(&outcome.directory.join(name).display().to_string());
-        reporter.note(&format!(
-            "{why}; to go on: meniscus run {} --set start.kind=file --set start.path={} \
-             --set start.density={density:?}",
-            file("config.toml"),
-            file("final.state")
-        ));
+        let directory = quoted(&outcome.directory.display().to_string());
+        reporter.note(&format!("{why}; to go on: meniscus resume {directory}"));
     }
     if let Some(reuse) = outcome.mesh_reuse {
         let error = reuse.error().map_or("nothing to compare".to_owned(), |error| {
@@ -144,22 +155,13 @@ fn conclude(outcome: &Outcome, density: f64, reporter: &mut Reporter<'_>) -> std
     reporter.json(|| {
         serde_json::json!({
             "directory": outcome.directory.display().to_string(),
-            "ended": ended(outcome.stop),
+            "ended": outcome.stop.map_or("finished", Stop::word),
             "step": step,
             "time": time,
             "length": length,
             "digest": digest.to_string(),
         })
     })
-}
-
-/// How it ended, as `run.json` has it.
-fn ended(stop: Option<Stop>) -> &'static str {
-    match stop {
-        None => "finished",
-        Some(Stop::Interrupted) => "interrupted",
-        Some(Stop::WallTime) => "wall time",
-    }
 }
 
 /// A flag that Ctrl-C and a request to terminate raise.

@@ -17,6 +17,15 @@ use super::FileError;
 use std::io::Write as _;
 use std::path::Path;
 
+/// What the names of files that are being written begin with.
+const UNFINISHED: &str = ".meniscus-";
+
+/// Whether a file of that name is one that a program was writing when it was killed.
+#[must_use]
+pub fn is_unfinished(name: &str) -> bool {
+    name.starts_with(UNFINISHED)
+}
+
 /// Makes `bytes` the contents of the file at `path`.
 ///
 /// They go to a file of another name in the same folder, which takes the place of `path` when it is
@@ -37,7 +46,7 @@ fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     // The user's mask decides who may read the file, as for any other.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.prefix(".meniscus-").tempfile_in(folder)?;
+    let mut file = builder.prefix(UNFINISHED).tempfile_in(folder)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;

@@ -1,44 +1,27 @@
 //! A run's directory: which files there are and what is in them.
 
-use super::{Outcome, Row, RunError, Stop};
-use crate::configuration::{Configuration, Force};
-use crate::files::trajectory::{Format, Frame, Trajectory};
-use crate::files::{atomic::write_atomically, csv, state::State};
+use super::growing::{Growing, Place};
+use super::lock::{self, Lock};
+use super::manifest::{self, Ending, Manifest};
+use super::progress::{Frames, Progress, Table};
+use super::row::Row;
+use super::{Outcome, RunError};
+use crate::checkpoint::{Checkpoint, store};
+use crate::configuration::Configuration;
+use crate::files::trajectory::{Extent, Format, Frame, Trajectory};
+use crate::files::{FileError, atomic, atomic::write_atomically, csv, state::State};
 use crate::observables::clusters::Clusters;
 use crate::simulation::Simulation;
 use crate::snapshot;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::time_from_units;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-/// A file that grows, with its name for messages.
-#[derive(Debug)]
-struct Growing {
-    path: PathBuf,
-    file: BufWriter<File>,
-}
-
-impl Growing {
-    fn create(path: PathBuf) -> Result<Self, RunError> {
-        match File::create_new(&path) {
-            Ok(file) => Ok(Self { path, file: BufWriter::new(file) }),
-            Err(source) => Err(RunError::Write { path, source }),
-        }
-    }
-
-    /// Appends what `write` writes and hands it to the system, so that it outlives this program.
-    fn append(
-        &mut self,
-        write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
-    ) -> Result<(), RunError> {
-        write(&mut self.file)
-            .and_then(|()| self.file.flush())
-            .map_err(|source| RunError::Write { path: self.path.clone(), source })
-    }
-}
+/// Name of the configuration as run.
+pub(super) const CONFIGURATION: &str = "config.toml";
+/// Name of the table of observables.
+const OBSERVABLES: &str = "observables.csv";
 
 /// An open run directory.
 #[derive(Debug)]
@@ -47,35 +30,83 @@ pub(super) struct Directory {
     torus: Torus,
     observables: Growing,
     trajectory: Trajectory,
-    begun: Instant,
-    begun_at: u64,
+    trajectory_place: Place,
+    manifest: Manifest,
+    _lock: Lock,
 }
 
 impl Directory {
     /// Refuses a directory that has something in it.
     pub(super) fn refuse_used(path: &Path) -> Result<(), RunError> {
-        let used = fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
-        if used { Err(RunError::NotEmpty(path.to_owned())) } else { Ok(()) }
+        let used = |entry: fs::DirEntry| entry.file_name() != lock::FILE;
+        if fs::read_dir(path).is_ok_and(|mut entries| entries.any(|entry| entry.is_ok_and(used))) {
+            // Whoever is at work there is the better reason.
+            if path.join(lock::FILE).exists() {
+                Lock::take(path)?;
+            }
+            return Err(RunError::NotEmpty(path.to_owned()));
+        }
+        Ok(())
     }
 
     /// Makes the directory if it is not there and the files a run begins with.
     pub(super) fn create(path: &Path, simulation: &Simulation) -> Result<Self, RunError> {
         fs::create_dir_all(path).map_err(|source| RunError::Write { path: path.to_owned(), source })?;
-        write_atomically(&path.join("config.toml"), simulation.configuration.to_toml().as_bytes())?;
-        let mut observables = Growing::create(path.join("observables.csv"))?;
-        observables.append(|file| writeln!(file, "{}", Row::HEADER))?;
-        let begun_at = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+        let lock = Lock::take(path)?;
+        Self::refuse_used(path)?;
+        let configuration = &simulation.configuration;
+        write_atomically(&path.join(CONFIGURATION), configuration.to_toml().as_bytes())?;
+        let mut observables = Growing::create(&path.join(OBSERVABLES))?;
+        observables.append(Row::HEADER)?;
+        let (format, trajectory_path) = trajectory(path, configuration);
         Ok(Self {
-            trajectory: Trajectory::create(
-                &path.join(Format::ExtendedXyz.file_name()),
-                Format::ExtendedXyz,
-                &simulation.torus,
-            )?,
+            trajectory: Trajectory::create(&trajectory_path, format, &simulation.torus)?,
+            trajectory_place: Place::of(&trajectory_path)?,
             path: path.to_owned(),
             torus: simulation.torus,
             observables,
-            begun: Instant::now(),
-            begun_at,
+            manifest: Manifest::begin(path, simulation.engine.clock().step),
+            _lock: lock,
+        })
+    }
+
+    /// Opens the directory of a run to go on where `progress` says that its files had come; what they got later is
+    /// dropped.
+    pub(super) fn resume(
+        path: &Path,
+        lock: Lock,
+        simulation: &Simulation,
+        progress: &Progress,
+    ) -> Result<Self, RunError> {
+        let configuration = &simulation.configuration;
+        let (format, trajectory_path) = trajectory(path, configuration);
+        let observables_path = path.join(OBSERVABLES);
+        for path in [&observables_path, &trajectory_path] {
+            if !path.exists() {
+                return Err(RunError::Gone(path.clone()));
+            }
+        }
+        let observables = Growing::resume(&observables_path, progress.observables.bytes)?;
+        let extent = progress.trajectory.extent();
+        let trajectory = Trajectory::resume(&trajectory_path, format, &simulation.torus, extent);
+        let trajectory = trajectory.map_err(|error| match error {
+            FileError::Extent { .. } => RunError::Lost(error),
+            other => other.into(),
+        })?;
+        remove_leftovers(path, progress.snapshots.next)?;
+        let text = configuration.to_toml();
+        let written = fs::read(path.join(CONFIGURATION)).is_ok_and(|found| found == text.as_bytes());
+        if !written {
+            write_atomically(&path.join(CONFIGURATION), text.as_bytes())?;
+        }
+        Ok(Self {
+            trajectory,
+            trajectory_place: Place::of(&trajectory_path)?,
+            path: path.to_owned(),
+            torus: simulation.torus,
+            observables,
+            manifest: Manifest::begin(path, simulation.engine.clock().step),
+            _lock: lock,
         })
     }
 
@@ -84,10 +115,11 @@ impl Directory {
     }
 
     pub(super) fn write_row(&mut self, row: &Row, clusters: &Clusters) -> Result<(), RunError> {
-        self.observables.append(|file| writeln!(file, "{}", row.format(clusters)))
+        self.observables.append(&row.format(clusters))
     }
 
     pub(super) fn write_frame(&mut self, frame: &Frame<'_>) -> Result<(), RunError> {
+        self.trajectory_place.check()?;
         Ok(self.trajectory.append(frame)?)
     }
 
@@ -99,88 +131,81 @@ impl Directory {
         positions: &[Position],
         clusters: &Clusters,
     ) -> Result<(), RunError> {
-        let path = self.path.join(format!("snapshot-{index:03}.png"));
+        let path = self.path.join(snapshot_name(index));
         let clustered = |id| clusters.clustered(id);
         snapshot::draw(&path, &self.torus, positions, &clustered, &caption(simulation))?;
         Ok(())
     }
 
-    /// Writes the last state as `final.csv` and `final.state`, and the summary `run.json`.
-    pub(super) fn finish(
-        &self,
-        simulation: &Simulation,
-        outcome: &Outcome,
-        failed: bool,
-    ) -> Result<(), RunError> {
+    /// Waits until the files that grow are on the disk; tells how far they have come, `next` rows and frames being due.
+    pub(super) fn sync(&mut self, next: [u64; 2]) -> Result<(Table, Frames), RunError> {
+        self.trajectory_place.check()?;
+        let Extent { frames, bytes } = self.trajectory.sync()?;
+        let [next_row, next_frame] = next;
+        let table = Table { next: next_row, bytes: self.observables.sync()? };
+        Ok((table, Frames { next: next_frame, frames, bytes }))
+    }
+
+    /// Makes `checkpoint` the newest.
+    pub(super) fn store(&self, checkpoint: &Checkpoint) -> Result<(), RunError> {
+        Ok(store::store(&self.path, checkpoint)?)
+    }
+
+    /// Writes the last state as `final.csv` and `final.state`.
+    pub(super) fn write_state(&self, simulation: &Simulation) -> Result<(), RunError> {
         let positions = simulation.engine.positions();
         let strengths = simulation.engine.strengths();
         csv::write(&self.path.join("final.csv"), &self.torus, &positions, &strengths)?;
-        let (step, time) = (outcome.clock.step, outcome.clock.time);
-        let state =
-            State { step, time, positions, strengths: Some(strengths), held: simulation.engine.held() };
-        state.write(&self.path.join("final.state"))?;
-        let summary = serde_json::json!({
-            "program": concat!("meniscus ", env!("CARGO_PKG_VERSION")),
-            "machine": format!("{} {}", std::env::consts::ARCH, std::env::consts::OS),
-            "engine": simulation.engine.kind().word(),
-            "threads": simulation.engine.threads(),
-            "ended": match (failed, outcome.stop) {
-                (true, _) => "error",
-                (false, None) => "finished",
-                (false, Some(Stop::Interrupted)) => "interrupted",
-                (false, Some(Stop::WallTime)) => "wall time",
-            },
-            "began_at_unix_seconds": self.begun_at,
-            "wall_seconds": self.begun.elapsed().as_secs_f64(),
-            "step": outcome.clock.step,
-            "time": time_from_units(outcome.clock.time),
-            "time_over_jeans": simulation.time_over_jeans(),
-            "jeans_time": simulation.configuration.jeans_time(),
-            "time_unit_seconds": simulation.configuration.seconds_per_time_unit(),
-            "force": force(simulation),
-            "length": outcome.digest.length,
-            "digest": outcome.digest.to_string(),
-        });
-        let text = format!("{summary:#}\n");
-        Ok(write_atomically(&self.path.join("run.json"), text.as_bytes())?)
+        let (clock, held) = (simulation.engine.clock(), simulation.engine.held());
+        let state = State { step: clock.step, time: clock.time, positions, strengths: Some(strengths), held };
+        Ok(state.write(&self.path.join("final.state"))?)
+    }
+
+    /// Writes `run.json`.
+    pub(super) fn write_manifest(
+        &self,
+        simulation: &Simulation,
+        ending: Ending,
+        checkpoints: u64,
+    ) -> Result<(), RunError> {
+        let text = self.manifest.to_text(simulation, ending, checkpoints);
+        Ok(write_atomically(&self.path.join(manifest::FILE), text.as_bytes())?)
     }
 }
 
-/// How the capillary force is summed.
-fn force(simulation: &Simulation) -> serde_json::Value {
-    let mut force = scheme(&simulation.configuration);
-    if let (Some(reuse), Some(force)) = (simulation.engine.mesh_reuse(), force.as_object_mut()) {
-        let reuse = serde_json::json!({
-            "distance": simulation.configuration.mesh_refresh,
-            "steps": reuse.steps,
-            "transforms": reuse.transforms,
-            "saved": reuse.saved(),
-            "measured_error": reuse.error(),
-        });
-        force.insert("mesh_refresh".to_owned(), reuse);
-    }
-    force
+/// Whether the directory at `path` tells that its run has finished as `outcome` says.
+pub(super) fn is_finished(path: &Path, outcome: &Outcome) -> bool {
+    manifest::tells_finished(path, outcome)
 }
 
-/// Method and scheme.
-fn scheme(configuration: &Configuration) -> serde_json::Value {
-    // The words are those of the configuration.
-    let Configuration { force, mesh, .. } = configuration;
-    let (assignment, method) = (mesh.assignment_word(), force.method_word());
-    match *force {
-        Force::ParticleMesh => {
-            serde_json::json!({ "method": method, "grid": mesh.grid, "assignment": assignment })
+/// Format and path of the trajectory.
+fn trajectory(directory: &Path, _: &Configuration) -> (Format, PathBuf) {
+    let format = Format::ExtendedXyz;
+    (format, directory.join(format.file_name()))
+}
+
+fn snapshot_name(index: u64) -> String {
+    format!("snapshot-{index:03}.png")
+}
+
+/// Removes what a run that was killed left behind: files being written, and snapshots from the `next_snapshot`-th on,
+/// which it will draw again.
+fn remove_leftovers(directory: &Path, next_snapshot: u64) -> Result<(), RunError> {
+    store::remove_partial(directory)?;
+    let entries =
+        fs::read_dir(directory).map_err(|source| RunError::Write { path: directory.to_owned(), source })?;
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let Some(name) = name.to_str() else { continue };
+        let index = name.strip_prefix("snapshot-").and_then(|name| name.strip_suffix(".png"));
+        let index = index.and_then(|index| index.parse::<u64>().ok());
+        let is_later = index.is_some_and(|index| index >= next_snapshot && snapshot_name(index) == name);
+        if is_later || atomic::is_unfinished(name) {
+            let path = entry.path();
+            fs::remove_file(&path).map_err(|source| RunError::Write { path, source })?;
         }
-        Force::P3m { accuracy, splitting, cutoff } => serde_json::json!({
-            "method": method,
-            "accuracy": accuracy,
-            "estimated_error": configuration.estimated_error(),
-            "grid": mesh.grid,
-            "assignment": assignment,
-            "splitting": splitting,
-            "cutoff": cutoff,
-        }),
     }
+    Ok(())
 }
 
 /// What stands above a snapshot.

@@ -1,69 +1,65 @@
-//! A run from its start to its end, with everything it writes.
+//! A run from its start to its end, with everything it writes, and over any number of stops.
 //!
-//! ```no_run
+//! A run's checkpoints ([`crate::checkpoint`]) say how far its other files had come; [`Run::resume`] goes on from the
+//! newest, drops what the files got later, and so leaves the same files as a run that was never stopped, byte for byte.
+//! Of `run.json` and the checkpoints themselves that does not hold.
+//!
+//! ```
 //! use meniscus::configuration::Configuration;
-//! use meniscus::run::{GoldenRequest, Run, Stop};
+//! use meniscus::engine::Machinery;
+//! use meniscus::run::{GoldenRequest, Resumed, Run, Stop};
 //! use meniscus::simulation::Simulation;
-//! use std::path::Path;
 //!
-//! let simulation = Simulation::new(Configuration::from_preset("fig-12", &[])?)?;
-//! let directory = Path::new("rings");
-//! let outcome = Run::create(simulation, directory, GoldenRequest::in_directory(directory))?.to_end(|_| None::<Stop>)?;
+//! let overrides = ["particles=20", "box=40"].map(|text| format!("system.{text}"));
+//! let overrides = [&overrides[..], &["force.method=pm".to_owned(), "time.until=0.001".to_owned()]].concat();
+//! let folder = tempfile::tempdir()?;
+//! let directory = folder.path().join("run");
+//! let simulation = Simulation::new(Configuration::from_preset("table-1", &overrides)?)?;
+//! let run = Run::create(simulation, &directory, GoldenRequest::in_directory(&directory))?;
+//! let stopped = run.to_end(|simulation| (simulation.engine.clock().step == 3).then_some(Stop::Interrupted))?;
+//! assert_eq!((stopped.stop, stopped.clock.step), (Some(Stop::Interrupted), 3));
+//!
+//! let Resumed::Ready { run, .. } = Run::resume(&directory, Machinery::default(), None)? else { panic!() };
+//! let outcome = run.to_end(|_| None)?;
+//! assert_eq!(outcome.stop, None);
 //! println!("{} after {} steps", outcome.digest, outcome.clock.step);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod directory;
+mod error;
+mod growing;
+mod lock;
+mod manifest;
+mod progress;
+mod resume;
+mod row;
 mod schedule;
 
+pub use error::RunError;
+pub use resume::Resumed;
 pub use schedule::Schedule;
 
+use crate::checkpoint::Checkpoint;
 use crate::configuration::Output;
-use crate::engine::{EngineError, MeshReuse};
-use crate::files::FileError;
+use crate::engine::MeshReuse;
 use crate::files::trajectory::Frame;
 use crate::golden::Golden;
 use crate::observables::clusters::Clusters;
-use crate::observables::energy::{Energies, PotentialEnergy};
+use crate::observables::energy::PotentialEnergy;
 use crate::simulation::Simulation;
-use crate::snapshot::SnapshotError;
 use directory::Directory;
+use manifest::Ending;
 use meniscus_core::digest::Digest;
 use meniscus_core::dynamics::Clock;
-use meniscus_core::units::{force_from_units, time_from_units};
+use meniscus_core::units::time_from_units;
+use progress::{Pictures, Progress, Records};
+use row::{Row, largest_force};
 use std::path::{Path, PathBuf};
-use thiserror::Error;
+use std::time::{Duration, Instant};
 
 /// Steps between records of a run's own golden file.
 pub const GOLDEN_INTERVAL: u64 = 1000;
-
-/// Why a run could not be made.
-#[derive(Debug, Error)]
-pub enum RunError {
-    /// The directory has something in it that a run would overwrite.
-    #[error("{}: the directory is not empty; name another with --out, or remove it", .0.display())]
-    NotEmpty(PathBuf),
-    /// The golden file is there already.
-    #[error("{}: this golden file exists; `meniscus verify` compares with it, or name another with --golden", .0.display())]
-    GoldenExists(PathBuf),
-    /// A file could not be written.
-    #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A file could not be written.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A picture could not be made.
-    #[error(transparent)]
-    Snapshot(#[from] SnapshotError),
-    /// A step was refused. The state before it has been written.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-}
 
 /// Why a run ends before its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +68,17 @@ pub enum Stop {
     Interrupted,
     /// The wall time allowed is over.
     WallTime,
+}
+
+impl Stop {
+    /// How `run.json` calls it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Interrupted => "interrupted",
+            Self::WallTime => "wall time",
+        }
+    }
 }
 
 /// How a run ended.
@@ -104,6 +111,21 @@ impl GoldenRequest {
     pub fn in_directory(directory: &Path) -> Self {
         Self { path: directory.join("golden.toml"), every: GOLDEN_INTERVAL }
     }
+
+    /// What a checkpoint in `directory` has to remember of it.
+    fn progress(&self, directory: &Path, records: usize) -> Records {
+        let is_own = self.path == Self::in_directory(directory).path;
+        // The program that goes on may do so from another place.
+        let absolute = std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone());
+        let path = (!is_own).then(|| absolute.to_string_lossy().into_owned());
+        Records { path, every: self.every, records }
+    }
+
+    /// What `progress` remembers.
+    fn resumed(directory: &Path, progress: &Records) -> Self {
+        let path = progress.path.as_ref().map_or_else(|| Self::in_directory(directory).path, PathBuf::from);
+        Self { path, every: progress.every }
+    }
 }
 
 /// A run under way.
@@ -113,18 +135,36 @@ pub struct Run {
     directory: Directory,
     golden: Golden,
     golden_request: GoldenRequest,
+    /// Records in the golden file as it is on the disk; None if it is to be written anyway.
+    golden_written: Option<usize>,
     observables: Schedule,
     /// None if there are no rows.
     energy: Option<PotentialEnergy>,
     trajectory: Schedule,
     snapshots: Schedule,
+    checkpoints: Checkpoints,
+    /// When the wall time allowed is over.
+    deadline: Option<Instant>,
+}
+
+/// The checkpoints a run has written.
+#[derive(Clone, Copy, Debug)]
+struct Checkpoints {
+    written: u64,
+    /// Step of the newest.
+    step: u64,
+    /// When it was written.
+    at: Instant,
+    /// How long that took.
+    took: Duration,
 }
 
 impl Run {
-    /// Makes the directory and the files of a run that has not begun.
+    /// Makes the directory and the files of a run that has not begun, a first checkpoint among them.
     ///
     /// # Errors
-    /// A [`RunError`]; a directory that has something in it and a golden file that exists are refused.
+    /// A [`RunError`]; a directory that has something in it, or in which another run is at work, and a golden file that
+    /// exists are refused.
     pub fn create(
         simulation: Simulation,
         directory: &Path,
@@ -136,32 +176,59 @@ impl Run {
         }
         let configuration = &simulation.configuration;
         let Output { observables, trajectory, snapshots, .. } = configuration.output;
-        let (scale, now) = (configuration.time_scale(), simulation.engine.clock().time);
-        let schedule = |interval: f64| Schedule::new(interval * scale, now);
-        let run = Self {
+        let (scale, clock) = (configuration.time_scale(), simulation.engine.clock());
+        let schedule = |interval: f64| Schedule::new(interval * scale, clock.time);
+        let mut run = Self {
             directory: Directory::create(directory, &simulation)?,
             golden: Golden::new(configuration.to_toml(), "a run"),
             golden_request,
+            golden_written: None,
             observables: schedule(observables),
-            energy: (observables > 0.0).then(|| PotentialEnergy::new(&configuration.system)),
+            energy: energy(&simulation),
             trajectory: schedule(trajectory),
             snapshots: schedule(snapshots),
+            checkpoints: Checkpoints {
+                written: 0,
+                step: clock.step,
+                at: Instant::now(),
+                took: Duration::ZERO,
+            },
+            deadline: None,
             simulation,
         };
-        // That it cannot be written is better known before the run than after it.
-        run.golden.write(&run.golden_request.path)?;
+        // That something cannot be written is better known before the run than after it.
+        run.write_checkpoint()?;
+        run.write_manifest(Ending::Running)?;
         Ok(run)
     }
 
-    /// Runs to the end. `watch` is called after every step and may stop the run; however it ends, the last state
-    /// and the golden file are written.
+    /// What is run.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// Stops in time for a checkpoint to be on the disk at `deadline`, as far as one can tell from the steps and the
+    /// checkpoints before.
+    #[must_use]
+    pub fn until(self, deadline: Option<Instant>) -> Self {
+        Self { deadline, ..self }
+    }
+
+    /// Runs to the end. `watch` is called after every step and may stop the run; however it ends, a checkpoint, the last
+    /// state and the golden file are written, unless writing is what failed.
     ///
     /// # Errors
     /// A [`RunError`].
     pub fn to_end(mut self, watch: impl FnMut(&Simulation) -> Option<Stop>) -> Result<Outcome, RunError> {
-        let result = self.step_to_end(watch);
-        let outcome = self.finish(result.as_ref().ok().copied().flatten(), result.is_err())?;
-        result.map(|_| outcome)
+        let ended = self.step_to_end(watch).and_then(|stop| {
+            self.finish(stop.map_or(Ending::Finished, Ending::Stopped))?;
+            Ok(stop)
+        });
+        match ended {
+            Ok(stop) => Ok(self.outcome(stop)),
+            Err(error) => Err(self.fail(error)),
+        }
     }
 
     fn step_to_end(
@@ -169,12 +236,23 @@ impl Run {
         mut watch: impl FnMut(&Simulation) -> Option<Stop>,
     ) -> Result<Option<Stop>, RunError> {
         let end = self.simulation.end();
+        let mut longest_step = Duration::ZERO;
         self.look()?;
         while self.simulation.engine.clock().time < end {
+            let begun = Instant::now();
             self.simulation.engine.step()?;
             self.look()?;
+            longest_step = longest_step.max(begun.elapsed());
             if let Some(stop) = watch(&self.simulation) {
                 return Ok(Some(stop));
+            }
+            if self.checkpoint_is_due() {
+                self.write_checkpoint()?;
+            }
+            // Twice what the last one took, and the step before that.
+            let needed = longest_step + 2 * self.checkpoints.took;
+            if self.deadline.is_some_and(|deadline| Instant::now() + needed >= deadline) {
+                return Ok(Some(Stop::WallTime));
             }
         }
         Ok(None)
@@ -213,10 +291,9 @@ impl Run {
                 time: clock.time,
                 time_over_jeans,
                 time_step: time_from_units(length),
-                largest_force: next_step
-                    .map(|(_, force)| force_from_units(i64::try_from(force).unwrap_or(i64::MAX))),
+                largest_force: next_step.map(|(_, force)| largest_force(force)),
                 positions: &positions,
-                crossings: &[],
+                crossings: &self.simulation.engine.crossings(),
                 strengths: &strengths,
                 clustered: Some(&clusters),
             })?;
@@ -228,52 +305,95 @@ impl Run {
         Ok(())
     }
 
-    /// Writes the last state, the summary and the golden file.
-    fn finish(mut self, stop: Option<Stop>, failed: bool) -> Result<Outcome, RunError> {
+    fn checkpoint_is_due(&self) -> bool {
+        let Output { checkpoint_steps, checkpoint_minutes, .. } = self.simulation.configuration.output;
+        let step = self.simulation.engine.clock().step;
+        let by_steps = checkpoint_steps > 0 && step.is_multiple_of(checkpoint_steps);
+        let by_time = || self.checkpoints.at.elapsed().as_secs_f64() >= 60.0 * checkpoint_minutes;
+        by_steps || (checkpoint_minutes > 0.0 && by_time())
+    }
+
+    /// Writes a checkpoint. What it says of other files is on the disk before.
+    fn write_checkpoint(&mut self) -> Result<(), RunError> {
+        let begun = Instant::now();
+        let next = [&self.observables, &self.trajectory].map(Schedule::next_due);
+        let (observables, trajectory) = self.directory.sync(next)?;
+        if self.golden_written != Some(self.golden.records.len()) {
+            self.golden.write(&self.golden_request.path)?;
+            self.golden_written = Some(self.golden.records.len());
+        }
+        let (engine, written) = (&self.simulation.engine, self.checkpoints.written + 1);
+        let progress = Progress {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            observables,
+            trajectory,
+            snapshots: Pictures { next: self.snapshots.next_due() },
+            golden: self.golden_request.progress(self.directory.path(), self.golden.records.len()),
+            mesh_reuse: engine.mesh_reuse().unwrap_or_default(),
+            checkpoints: written,
+        };
+        let mut state = Vec::new();
+        engine.state().write(|part| state.extend_from_slice(part));
+        self.directory.store(&Checkpoint {
+            configuration: self.simulation.configuration.to_toml(),
+            state,
+            crossings: engine.crossings(),
+            progress: progress.to_text()?,
+        })?;
+        let step = engine.clock().step;
+        self.checkpoints = Checkpoints { written, step, at: Instant::now(), took: begun.elapsed() };
+        Ok(())
+    }
+
+    fn write_manifest(&self, ending: Ending) -> Result<(), RunError> {
+        self.directory.write_manifest(&self.simulation, ending, self.checkpoints.written)
+    }
+
+    /// Writes a checkpoint, the last state, the golden file with a record of it, and the summary.
+    fn finish(&mut self, ending: Ending) -> Result<(), RunError> {
+        if self.checkpoints.step != self.simulation.engine.clock().step || self.golden_written.is_none() {
+            self.write_checkpoint()?;
+        }
+        self.write_last(ending)
+    }
+
+    /// Writes the last state, the golden file with a record of it, and the summary.
+    fn write_last(&mut self, ending: Ending) -> Result<(), RunError> {
+        self.directory.write_state(&self.simulation)?;
+        self.golden.record(self.simulation.engine.state().digest_by_field());
+        self.golden.write(&self.golden_request.path)?;
+        self.write_manifest(ending)
+    }
+
+    /// Writes what can still be written, and says how to go on.
+    fn fail(mut self, error: RunError) -> RunError {
+        // The first error is the one to tell.
+        if let RunError::Engine(_) = error {
+            let _ = self.finish(Ending::Failed);
+            return error;
+        }
+        let _ = self.write_last(Ending::Failed);
+        if let RunError::Removed(_) = error {
+            return error;
+        }
+        let (directory, step) = (self.directory.path().to_owned(), self.checkpoints.step);
+        RunError::Unwritten { source: Box::new(error), directory, step }
+    }
+
+    fn outcome(&self, stop: Option<Stop>) -> Outcome {
         let engine = &self.simulation.engine;
-        let outcome = Outcome {
+        Outcome {
             stop,
             clock: engine.clock(),
             digest: engine.state().digest(),
             mesh_reuse: engine.mesh_reuse(),
             directory: self.directory.path().to_owned(),
-        };
-        self.directory.finish(&self.simulation, &outcome, failed)?;
-        self.golden.record(self.simulation.engine.state().digest_by_field());
-        self.golden.write(&self.golden_request.path)?;
-        Ok(outcome)
+        }
     }
 }
 
-/// A row of `observables.csv`, apart from the clusters.
-struct Row {
-    clock: Clock,
-    time_over_jeans: Option<f64>,
-    /// Length of the next step (unit 2⁻⁴⁰ R0²/D) and the largest force in this state (unit 2⁻²⁴ kBT/R0).
-    next_step: Option<(u64, u64)>,
-    energies: Energies,
-}
-
-impl Row {
-    /// Names of the columns, those of the clusters included.
-    const HEADER: &str = "step,time,time_over_jeans,dt,max_force,clusters,mean_cluster_size,\
-                          mass_weighted_cluster_size,largest_cluster,capillary_energy,repulsive_energy";
-
-    fn format(&self, clusters: &Clusters) -> String {
-        let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-        format!(
-            "{},{},{},{},{},{},{},{},{},{},{}",
-            self.clock.step,
-            time_from_units(self.clock.time),
-            cell(self.time_over_jeans),
-            cell(self.next_step.map(|(length, _)| time_from_units(length))),
-            cell(self.next_step.map(|(_, force)| force_from_units(i64::try_from(force).unwrap_or(i64::MAX)))),
-            clusters.count(),
-            clusters.number_average(),
-            clusters.mass_average(),
-            clusters.largest(),
-            self.energies.capillary,
-            self.energies.repulsive,
-        )
-    }
+/// The energy of rows, if there are any.
+fn energy(simulation: &Simulation) -> Option<PotentialEnergy> {
+    let configuration = &simulation.configuration;
+    (configuration.output.observables > 0.0).then(|| PotentialEnergy::new(&configuration.system))
 }

@@ -35,6 +35,18 @@ impl Schedule {
         schedule
     }
 
+    /// A schedule that goes on with its `next` due time, as [`Schedule::next_due`] told it.
+    #[must_use]
+    pub fn resumed(interval: f64, next: u64) -> Self {
+        Self { next, ..Self::new(interval, 0) }
+    }
+
+    /// The number k of the next due time.
+    #[must_use]
+    pub fn next_due(&self) -> u64 {
+        self.next
+    }
+
     /// Whether something is due at time `now` (unit 2⁻⁴⁰ R0²/D) that was not before.
     pub fn is_due(&mut self, now: u64) -> bool {
         let due = self.interval > 0.0 && self.due_time() <= now;

@@ -1,0 +1,98 @@
+//! A text file that grows line by line and can go on after a stop, and whether a file is still the one it was.
+
+use super::RunError;
+use crate::files::FileError;
+use std::fs::{self, File};
+use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// A file that grows.
+#[derive(Debug)]
+pub(super) struct Growing {
+    file: BufWriter<File>,
+    place: Place,
+}
+
+impl Growing {
+    /// Makes the file, which must not exist.
+    pub(super) fn create(path: &Path) -> Result<Self, RunError> {
+        let file = File::create_new(path).map_err(|source| written(path, source))?;
+        Ok(Self { file: BufWriter::new(file), place: Place::of(path)? })
+    }
+
+    /// Opens the file to go on after its first `length` bytes; what follows them is dropped.
+    pub(super) fn resume(path: &Path, length: u64) -> Result<Self, RunError> {
+        let open = || -> std::io::Result<(File, u64)> {
+            let file = File::options().write(true).open(path)?;
+            let found = file.metadata()?.len();
+            Ok((file, found))
+        };
+        let (mut file, found) = open().map_err(|source| written(path, source))?;
+        if found < length {
+            let (found, expected) = (format!("{found} bytes"), format!("{length} bytes"));
+            return Err(RunError::Lost(FileError::Extent { path: path.to_owned(), found, expected }));
+        }
+        let mut cut = || file.set_len(length).and_then(|()| file.seek(SeekFrom::End(0)));
+        cut().map_err(|source| written(path, source))?;
+        Ok(Self { file: BufWriter::new(file), place: Place::of(path)? })
+    }
+
+    /// Appends `line` and hands it to the system, so that it outlives this program.
+    pub(super) fn append(&mut self, line: &str) -> Result<(), RunError> {
+        self.place.check()?;
+        writeln!(self.file, "{line}")
+            .and_then(|()| self.file.flush())
+            .map_err(|source| written(&self.place.path, source))
+    }
+
+    /// Waits until the file is on the disk, and tells its length.
+    pub(super) fn sync(&mut self) -> Result<u64, RunError> {
+        self.place.check()?;
+        let sync = |file: &mut BufWriter<File>| {
+            file.get_ref().sync_all()?;
+            file.stream_position()
+        };
+        sync(&mut self.file).map_err(|source| written(&self.place.path, source))
+    }
+}
+
+/// A file under its name, to notice when it is removed or another takes its place.
+#[derive(Debug)]
+pub(super) struct Place {
+    path: PathBuf,
+    identity: Identity,
+}
+
+/// What tells a file from any other; nothing where the system has no such thing.
+type Identity = Option<(u64, u64)>;
+
+impl Place {
+    /// The file that is at `path`.
+    pub(super) fn of(path: &Path) -> Result<Self, RunError> {
+        let metadata = fs::metadata(path).map_err(|source| written(path, source))?;
+        Ok(Self { path: path.to_owned(), identity: identity(&metadata) })
+    }
+
+    /// Whether it still is.
+    pub(super) fn check(&self) -> Result<(), RunError> {
+        match fs::metadata(&self.path) {
+            Ok(metadata) if identity(&metadata) == self.identity => Ok(()),
+            _ => Err(RunError::Removed(self.path.clone())),
+        }
+    }
+}
+
+#[cfg(unix)]
+fn identity(metadata: &fs::Metadata) -> Identity {
+    use std::os::unix::fs::MetadataExt;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(_: &fs::Metadata) -> Identity {
+    None
+}
+
+fn written(path: &Path, source: std::io::Error) -> RunError {
+    RunError::Write { path: path.to_owned(), source }
+}
