@@ -5,6 +5,7 @@
 
 pub mod arrays;
 pub mod checkpoints;
+pub mod directories;
 pub mod field;
 pub mod figures;
 pub mod fits;
