@@ -1,9 +1,20 @@
-//! Run directories compared with each other.
+//! Run directories: where tests put them, and compared with each other.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use sha2::{Digest as _, Sha256};
+
+/// A folder for runs that stop again and again: in memory where the system has such a place, since nothing in it has to
+/// survive, and waiting for a disk is most of what such runs do.
+///
+/// # Panics
+/// If none can be made.
+#[expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
+#[must_use]
+pub fn fast_folder() -> tempfile::TempDir {
+    tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
+}
 
 /// What a run's directory holds, apart from what tells of the machine and the stops: `run.json` and checkpoints.
 ///

@@ -7,7 +7,7 @@ use meniscus::engine::{Kind, Machinery};
 use meniscus::golden::Golden;
 use meniscus::run::{GoldenRequest, Outcome, Resumed, Run, Stop};
 use meniscus::simulation::Simulation;
-use meniscus_tests::directories::assert_same_files;
+use meniscus_tests::directories::{assert_same_files, fast_folder, sha256};
 use meniscus_tests::long_tests;
 use std::path::Path;
 
@@ -71,7 +71,7 @@ fn assert_same(expected: &Path, found: &Path) {
 
 /// Stops at every step of a short run and resumes, by turns in every machinery; and in one run stops at every step.
 fn restart_at_every_step(overrides: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = fast_folder();
     let path = |name: &str| folder.path().join(name);
     let overrides = [overrides, &["time.until=0.1"]].concat();
     let last = to_end(begin(&path("whole"), &overrides, 1, HOST)).clock.step;
@@ -112,7 +112,7 @@ fn strengths_survive_a_restart_at_any_step() {
 
 #[test]
 fn borders_crossed_survive_a_restart() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = fast_folder();
     let overrides = ["time.until=0.3", "field.uniform_force=[400, -300]", "motion.max_step=0.01"];
     let crossings = |name: &str, stop: Option<u64>| {
         let path = folder.path().join(name);
@@ -146,7 +146,7 @@ fn restarts_at_random_steps_leave_the_same_files() {
         &["force.method=p3m", "mesh.grid=16", "mesh.assignment=order-5", "system.strengths=[1, 2]"],
     ];
     for (seed, more) in (1_u64..).zip(more) {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = fast_folder();
         let [whole, stopped] = ["whole", "stopped"].map(|name| folder.path().join(name));
         let overrides = [&[until], more].concat();
         let last = to_end(begin(&whole, &overrides, 10, THREADS)).clock.step;
@@ -169,9 +169,10 @@ fn restarts_at_random_steps_leave_the_same_files() {
 
 #[test]
 fn a_later_end_gives_the_files_of_a_run_that_had_it_from_the_start() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = fast_folder();
     let [whole, further] = ["whole", "further"].map(|name| folder.path().join(name));
-    let snapshots = "output.snapshots=0.15";
+    // Pictures take seconds without optimisation.
+    let snapshots = if long_tests() { "output.snapshots=0.05" } else { "output.snapshots=0" };
     to_end(begin(&whole, &["time.until=0.2", snapshots], 10, HOST));
     to_end(begin(&further, &["time.until=0.1", snapshots], 10, HOST));
     let Resumed::Ready { run, .. } = Run::resume(&further, HOST, Some(0.2)).unwrap() else {
@@ -183,7 +184,7 @@ fn a_later_end_gives_the_files_of_a_run_that_had_it_from_the_start() {
 
 #[test]
 fn a_finished_run_is_left_as_it_is() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = fast_folder();
     let path = folder.path().join("run");
     let outcome = to_end(begin(&path, &["time.until=0.02"], 10, HOST));
     let manifest = std::fs::read(path.join("run.json")).unwrap();
@@ -196,7 +197,7 @@ fn a_finished_run_is_left_as_it_is() {
 
 #[test]
 fn the_manifest_tells_of_every_leg() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = fast_folder();
     let path = folder.path().join("run");
     until_step(begin(&path, &["time.until=0.1", "output.checkpoint_steps=4"], 10, HOST), 9);
     drop(go_on(&path, HOST));
@@ -220,5 +221,5 @@ fn the_manifest_tells_of_every_leg() {
     assert_eq!(told["checkpoints"], 1 + by_steps + 2);
     assert_eq!(told["seed"], 3);
     let configuration = std::fs::read(path.join("config.toml")).unwrap();
-    assert_eq!(told["configuration_sha256"], meniscus_tests::directories::sha256(&configuration));
+    assert_eq!(told["configuration_sha256"], sha256(&configuration));
 }
