@@ -89,6 +89,7 @@ impl Simulation {
         state: State,
         machinery: Machinery,
     ) -> Result<Self, SimulationError> {
+        memory::check(&configuration)?;
         let torus = torus(&configuration)?;
         let State { positions, step, time, strengths, held } = state;
         if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {
