@@ -128,7 +128,7 @@ fn discs_at_one_place_are_named_and_come_apart() {
             let apart = (rows[first][axis] - rows[second][axis]).abs();
             apart.min(SIDE - apart)
         };
-        along(1).hypot(along(2))
+        libm::hypot(along(1), along(2))
     };
     for (first, second) in [(1, 4), (2, 3)] {
         assert!(distance(first, second) > 1.8, "{rows:?}");
