@@ -1,7 +1,5 @@
 //! The commands in the documentation do what it says.
 
-#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
-
 use meniscus_tests::program::{Program, errors};
 use std::fs;
 use std::path::Path;
