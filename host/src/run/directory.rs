@@ -120,7 +120,9 @@ impl Directory {
 
     pub(super) fn write_frame(&mut self, frame: &Frame<'_>) -> Result<(), RunError> {
         self.trajectory_place.check()?;
-        Ok(self.trajectory.append(frame)?)
+        self.trajectory.append(frame)?;
+        // Some formats put a file of their own in the place of the one before.
+        self.trajectory_place.renew()
     }
 
     /// Draws the `index`-th snapshot, clustered discs in red.
@@ -141,6 +143,7 @@ impl Directory {
     pub(super) fn sync(&mut self, next: [u64; 2]) -> Result<(Table, Frames), RunError> {
         self.trajectory_place.check()?;
         let Extent { frames, bytes } = self.trajectory.sync()?;
+        self.trajectory_place.renew()?;
         let [next_row, next_frame] = next;
         let table = Table { next: next_row, bytes: self.observables.sync()? };
         Ok((table, Frames { next: next_frame, frames, bytes }))

@@ -73,6 +73,12 @@ impl Place {
         Ok(Self { path: path.to_owned(), identity: identity(&metadata) })
     }
 
+    /// Takes the file that is there now for the one it was.
+    pub(super) fn renew(&mut self) -> Result<(), RunError> {
+        *self = Self::of(&self.path)?;
+        Ok(())
+    }
+
     /// Whether it still is.
     pub(super) fn check(&self) -> Result<(), RunError> {
         match fs::metadata(&self.path) {
