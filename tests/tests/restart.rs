@@ -1,6 +1,6 @@
 //! A run that is stopped and resumed leaves what a run leaves that was never stopped, to the last byte.
 
-#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use meniscus::configuration::Configuration;
 use meniscus::engine::{Kind, Machinery};
