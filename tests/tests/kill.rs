@@ -3,6 +3,7 @@
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+#![allow(clippy::print_stderr, reason = "the table is what the test is to show")]
 
 use meniscus::checkpoint::store;
 use meniscus_tests::directories::{difference, fast_folder};
