@@ -276,7 +276,7 @@ fn random_flips_of_a_large_checkpoint_are_found_and_the_older_one_used() {
     let (count, flips) = if long_tests() { (20_000, 100_000) } else { (2_000, 2_000) };
     let mut flipped = Flipped::new(count);
     let mut random = RandomNumbers::new(17);
-    let mut below = |most: usize| (u128::from(random.bits()) * most as u128 >> 64) as usize;
+    let mut below = |most: usize| ((u128::from(random.bits()) * most as u128) >> 64) as usize;
     let mut table = vec![[0, 0]; flipped.regions.len()];
     for index in 0..flips {
         // Every other one anywhere, the rest evenly among sections, most of which are short.
