@@ -65,7 +65,7 @@ fn a_run_leaves_everything_a_person_can_look_at() {
     let folder = folder_with_small();
     let said = succeed(folder.path(), &["run", "small.toml", "--out", "run"]);
     let run = folder.path().join("run");
-    for name in ["config.toml", "final.csv", "final.state", "golden.toml", "run.json", "trajectory.xyz"] {
+    for name in ["config.toml", "final.csv", "final.state", "golden.toml", "run.json", "trajectory.gsd"] {
         assert!(run.join(name).metadata().unwrap().len() > 0, "{name}");
     }
     let table = fs::read_to_string(run.join("observables.csv")).unwrap();
@@ -92,7 +92,7 @@ fn the_written_configuration_repeats_the_run() {
     );
     succeed(folder.path(), &["run", "first/config.toml", "--out", "second"]);
     for name in
-        ["config.toml", "observables.csv", "trajectory.xyz", "final.csv", "final.state", "golden.toml"]
+        ["config.toml", "observables.csv", "trajectory.gsd", "final.csv", "final.state", "golden.toml"]
     {
         let [first, second] =
             ["first", "second"].map(|run| fs::read(folder.path().join(run).join(name)).unwrap());

@@ -10,6 +10,7 @@ use meniscus::configuration::{
     ACCURACY_RANGE, Assignment, Attraction, Configuration, Fields, Force, Gradient, Influence, Lattice, Mesh,
     Motion, Noise, Output, Physical, Start, System, Time, VERSION,
 };
+use meniscus::files::trajectory::Format;
 use meniscus::strengths::{ONE, Strengths};
 use meniscus_tests::long_tests;
 use proptest::prelude::*;
@@ -190,10 +191,12 @@ fn motion() -> impl Strategy<Value = Motion> {
 /// On the heap: the stack of a test is short.
 fn output() -> BoxedStrategy<Output> {
     let steps = prop_oneof![Just(0), 1_u64..1000, Just(i64::MAX as u64)];
-    (times(), times(), times(), steps, times())
-        .prop_map(|(observables, trajectory, snapshots, checkpoint_steps, checkpoint_minutes)| Output {
+    let format = prop::sample::select(Format::WORDS.map(|(_, format)| format).to_vec());
+    (times(), times(), format, times(), steps, times())
+        .prop_map(|(observables, trajectory, trajectory_format, snapshots, checkpoint_steps, checkpoint_minutes)| Output {
             observables,
             trajectory,
+            trajectory_format,
             snapshots,
             checkpoint_steps,
             checkpoint_minutes,

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error); a closed pipe changes none of them.
 
+mod convert;
 mod digest;
 mod forces;
 mod machinery;
@@ -19,6 +20,7 @@ use crate::golden::GoldenError;
 use crate::run::RunError;
 use crate::simulation::SimulationError;
 use clap::{Args, Parser, Subcommand};
+use meniscus_core::torus::{LARGEST_SIDE, SMALLEST_SIDE};
 use reporter::{Reporter, Reporting, say};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -42,7 +44,9 @@ enum Command {
     Resume(resume::Arguments),
     /// Print the force on every disc of a file of positions: `id,x,y,fx,fy` in R0 and kBT/R0.
     Forces(forces::Arguments),
-    /// Print length and SHA-256 of a state: of a run's directory, or of a state file.
+    /// Write a file of positions or a trajectory in another format.
+    Convert(convert::Arguments),
+    /// Print length and SHA-256 of a state: of a run's directory, of a state file, or of a trajectory.
     Digest(digest::Arguments),
     /// Repeat a golden run and compare.
     Verify(verify::Arguments),
@@ -87,6 +91,8 @@ enum CommandError {
         "--threads {threads}: --engine core takes one thread; leave --threads out, or take --engine host"
     )]
     CoreThreads { threads: u16 },
+    #[error("--box {side}: a box has a side of {SMALLEST_SIDE} to {LARGEST_SIDE} R0")]
+    Side { side: f64 },
     #[error("Ctrl-C cannot be caught: {0}")]
     Signal(std::io::Error),
     #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]
@@ -115,6 +121,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(arguments, reporter),
         Command::Resume(arguments) => resume::run(arguments, reporter),
         Command::Forces(arguments) => forces::run(arguments, reporter),
+        Command::Convert(arguments) => convert::run(arguments, reporter),
         Command::Digest(arguments) => digest::run(arguments, reporter),
         Command::Verify(arguments) => verify::run(arguments, reporter),
         Command::Presets(arguments) => presets::run(arguments, reporter),

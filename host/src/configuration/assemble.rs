@@ -12,6 +12,7 @@ use super::{
     Attraction, Configuration, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Fields, Motion, Output,
     Physical, Start, System, Time, VERSION,
 };
+use crate::files::trajectory::Format;
 use crate::strengths::{Strengths, from_number};
 
 /// A configuration from checked values.
@@ -232,6 +233,8 @@ fn output(entries: &Entries) -> Output {
     Output {
         observables: real("output.observables", default.observables),
         trajectory: real("output.trajectory", default.trajectory),
+        trajectory_format: choice(entries, "output.trajectory_format", &Format::WORDS)
+            .unwrap_or(default.trajectory_format),
         snapshots: real("output.snapshots", default.snapshots),
         checkpoint_steps: entries.integer("output.checkpoint_steps").unwrap_or(default.checkpoint_steps),
         checkpoint_minutes: real("output.checkpoint_minutes", default.checkpoint_minutes),

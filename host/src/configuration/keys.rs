@@ -23,6 +23,7 @@ use meniscus_core::torus::LARGEST_SIDE;
 
 use super::names::{self, words};
 use super::{ACCURACY_RANGE, VERSION};
+use crate::files::trajectory::Format;
 
 /// What a key accepts. `Display` says it in words.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -461,6 +462,13 @@ pub const KEYS: &[Key] = &[
         unit: TIMES,
         default: "0.1",
         help: "Interval of the frames of the trajectory",
+    },
+    Key {
+        name: "output.trajectory_format",
+        kind: Kind::Choice(&words(&Format::WORDS)),
+        unit: "",
+        default: "gsd",
+        help: "Format of the trajectory: trajectory.gsd, .xyz, .lammpstrj or .npz",
     },
     Key {
         name: "output.snapshots",

@@ -14,6 +14,7 @@ use std::path::PathBuf;
 use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
 
 use super::names::{ASSIGNMENTS, method_word, word};
+use crate::files::trajectory::Format;
 
 /// Table `force`: how the capillary force is summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,6 +170,8 @@ pub struct Output {
     pub observables: f64,
     /// Interval of the frames of the trajectory.
     pub trajectory: f64,
+    /// Format of the trajectory.
+    pub trajectory_format: Format,
     /// Interval of the snapshots (pictures).
     pub snapshots: f64,
     /// Steps between checkpoints.
@@ -182,6 +185,7 @@ impl Default for Output {
         Self {
             observables: 0.01,
             trajectory: 0.1,
+            trajectory_format: Format::Gsd,
             snapshots: 1.0,
             checkpoint_steps: 0,
             checkpoint_minutes: 10.0,

@@ -7,6 +7,7 @@ use toml_edit::Value;
 use super::keys::{KEYS, Key, TABLES};
 use super::names::{ASSIGNMENTS, GRADIENTS, INFLUENCES, LATTICES, NOISES, method_word, word};
 use super::{Attraction, Configuration, Force, Physical, Start, System};
+use crate::files::trajectory::Format;
 use crate::strengths::{Strengths, to_number};
 
 /// The whole configuration as TOML.
@@ -98,6 +99,7 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
         "time.until" => real(time.until),
         "output.observables" => real(output.observables),
         "output.trajectory" => real(output.trajectory),
+        "output.trajectory_format" => quoted(word(&Format::WORDS, &output.trajectory_format)),
         "output.snapshots" => real(output.snapshots),
         "output.checkpoint_steps" => output.checkpoint_steps.to_string(),
         "output.checkpoint_minutes" => real(output.checkpoint_minutes),

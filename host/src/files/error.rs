@@ -33,8 +33,14 @@ pub enum FileError {
         expected: String,
     },
     /// Its name does not tell a format of positions.
-    #[error("{}: no known ending for positions: use .csv, .xyz, .extxyz or .state", path.display())]
+    #[error("{}: no known ending for positions: use .csv, .state, .gsd, .xyz, .extxyz, .lammpstrj or .npz", path.display())]
     Ending {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The box that its positions are in is not known.
+    #[error("{}: the file does not say how large the box is: give its side, --box L", path.display())]
+    Box {
         /// The file.
         path: PathBuf,
     },

@@ -32,7 +32,7 @@ use super::error::quoted;
 use super::identities::{Rows, coordinate, strength};
 use super::lines::{Lines, Place};
 use super::state::State;
-use super::trajectory::Frame;
+use super::trajectory::{Frame, Recorded};
 use super::{FileError, FormatError, read_with};
 use crate::strengths;
 use meniscus_core::torus::{Position, Torus};
@@ -102,18 +102,54 @@ pub fn parse(input: impl BufRead + Seek, torus: &Torus, choice: FrameChoice) -> 
     let mut lines = Lines::new(input);
     let place = find(&mut lines, choice)?;
     lines.go_back(place)?;
-    let Some(count) = frame_start(&mut lines)? else {
-        return Err(no_frame(0, choice));
+    let frame = next_frame(&mut lines, &mut Some(*torus))?;
+    frame.map(|frame| frame.state).ok_or_else(|| no_frame(0, choice))
+}
+
+/// Reads the next frame; none at the end. `torus` is the box, if it is not known that of the frame's `Lattice`.
+pub(super) fn next_frame<R: BufRead>(
+    lines: &mut Lines<R>,
+    torus: &mut Option<Torus>,
+) -> Result<Option<Recorded>, FormatError> {
+    let Some(count) = frame_start(lines)? else {
+        return Ok(None);
     };
-    let header = lines.next()?.unwrap_or_default().to_owned();
-    let header = Header::parse(torus, lines.number(), &header)?;
+    let text = lines.next()?.unwrap_or_default().to_owned();
+    if torus.is_none() {
+        *torus = Some(lattice(lines.number(), &text)?);
+    }
+    let Some(torus) = torus else {
+        return Ok(None);
+    };
+    let header = Header::parse(torus, lines.number(), &text)?;
     let mut rows = Rows::default();
     for _ in 0..count {
         let line = lines.number() + 1;
         let text = lines.next()?.ok_or_else(|| cut_off(line, rows.len(), count))?;
         header.columns.add_row(torus, line, text, &mut rows)?;
     }
-    Ok(State { step: header.step, time: header.time, ..rows.into_state()? })
+    Ok(Some(Recorded {
+        state: State { step: header.step, time: header.time, ..rows.into_state()? },
+        time_over_jeans: header.time_over_jeans,
+        time_step: header.time_step,
+        ..Recorded::default()
+    }))
+}
+
+/// The box that the second line of a frame tells.
+fn lattice(line: u64, text: &str) -> Result<Torus, FormatError> {
+    let refused = |found: String| FormatError::Line {
+        line,
+        found,
+        expected: "Lattice=\"L 0 0 0 L 0 0 0 1\", a square box".to_owned(),
+    };
+    let (key, value) = KeysAndValues(text)
+        .find(|(key, _)| *key == "Lattice")
+        .ok_or_else(|| refused("no Lattice".to_owned()))?;
+    let side = value.split_whitespace().next().and_then(|side| side.parse().ok());
+    side.and_then(|side| Torus::new(side).ok())
+        .filter(|torus| is_box(torus, value))
+        .ok_or_else(|| refused(format!("{key}={}", quoted(value))))
 }
 
 /// Where the frame chosen begins.
@@ -182,12 +218,15 @@ struct Header {
     columns: Columns,
     step: u64,
     time: u64,
+    time_over_jeans: Option<f64>,
+    time_step: f64,
 }
 
 impl Header {
     fn parse(torus: &Torus, line: u64, text: &str) -> Result<Self, FormatError> {
         // What a file without `Properties` has.
-        let mut header = Self { columns: Columns { x: 1, y: 2, id: None, strength: None }, step: 0, time: 0 };
+        let columns = Columns { x: 1, y: 2, id: None, strength: None };
+        let mut header = Self { columns, step: 0, time: 0, time_over_jeans: None, time_step: 0.0 };
         let refused = |key: &str, value: &str, expected: String| FormatError::Line {
             line,
             found: format!("{key}={}", quoted(value)),
@@ -211,6 +250,8 @@ impl Header {
                     header.time = time_units(value)
                         .ok_or_else(|| refused(key, value, "a time from 0, R0²/D".to_owned()))?;
                 }
+                "time_over_jeans" => header.time_over_jeans = value.parse().ok(),
+                "dt" => header.time_step = value.parse().unwrap_or(0.0),
                 _ => {}
             }
         }

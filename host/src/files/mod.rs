@@ -1,7 +1,10 @@
 //! Files that hold positions, and how files are written.
 //!
 //! - [`csv`]: a table with columns `x`, `y` and perhaps `id` and `strength`
+//! - [`gsd`]: trajectories for gsd, freud, MDAnalysis and OVITO
 //! - [`extended_xyz`]: trajectories for OVITO and ASE
+//! - [`lammps_dump`]: trajectories for all that read those of LAMMPS
+//! - [`npz`]: trajectories for NumPy
 //! - [`state`]: the canonical bytes of a state
 //! - [`trajectory`]: files to which a run appends frames, of any format
 //! - [`atomic`]: a file is there whole or not at all
@@ -22,8 +25,11 @@ pub mod atomic;
 pub mod csv;
 mod error;
 pub mod extended_xyz;
+pub mod gsd;
 mod identities;
+pub mod lammps_dump;
 mod lines;
+pub mod npz;
 pub mod state;
 pub mod trajectory;
 
@@ -35,22 +41,23 @@ use state::State;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
+use trajectory::{Format, TrajectoryReader};
 
 /// Reads the positions in the file at `path`, in the box `torus`.
 ///
-/// The ending of its name tells the format: `.csv`, `.xyz` or `.extxyz` (of which the last frame is read),
-/// `.state`.
+/// The ending of its name tells the format: `.csv`, `.state`, or that of a trajectory, of which the last frame is read.
 ///
 /// # Errors
 /// [`FileError::Ending`] for any other ending, [`FileError::Read`] when the file cannot be read or is not
 /// what its ending says, or has no disc in it.
 pub fn read_positions(path: &Path, torus: &Torus) -> Result<State, FileError> {
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let state = match ending {
-        "csv" => csv::read(path, torus)?,
-        "xyz" | "extxyz" => extended_xyz::read(path, torus, FrameChoice::Last)?,
-        "state" => State::read(path)?,
-        _ => return Err(FileError::Ending { path: path.to_owned() }),
+    let state = match Format::of_path(path) {
+        // A text is read twice rather than every frame of it kept.
+        Some(Format::ExtendedXyz) => extended_xyz::read(path, torus, FrameChoice::Last)?,
+        _ => {
+            let last = TrajectoryReader::open(path, Some(torus))?.read_last()?;
+            last.map(|frame| frame.state).unwrap_or_default()
+        }
     };
     if state.positions.is_empty() {
         let problem = FormatError::Whole { found: "no disc".to_owned(), expected: "at least 1".to_owned() };

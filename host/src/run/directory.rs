@@ -182,8 +182,8 @@ pub(super) fn is_finished(path: &Path, outcome: &Outcome) -> bool {
 }
 
 /// Format and path of the trajectory.
-fn trajectory(directory: &Path, _: &Configuration) -> (Format, PathBuf) {
-    let format = Format::ExtendedXyz;
+fn trajectory(directory: &Path, configuration: &Configuration) -> (Format, PathBuf) {
+    let format = configuration.output.trajectory_format;
     (format, directory.join(format.file_name()))
 }
 

@@ -2,32 +2,36 @@
 
 use super::{Extent, Frame};
 use crate::files::FileError;
-use crate::files::extended_xyz::write_frame;
 use meniscus_core::torus::Torus;
 use std::fs::File;
 use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+
+/// How a frame is written.
+pub(super) type WriteFrame = fn(&mut BufWriter<File>, &Torus, &Frame<'_>) -> std::io::Result<()>;
 
 /// An open trajectory of text.
 #[derive(Debug)]
 pub(super) struct TextTrajectory {
     path: PathBuf,
     torus: Torus,
+    writer: WriteFrame,
     file: BufWriter<File>,
     extent: Extent,
 }
 
 impl TextTrajectory {
-    pub(super) fn create(path: &Path, torus: &Torus) -> Result<Self, FileError> {
-        Ok(Self::new(
-            path,
-            torus,
-            File::create_new(path).map_err(|error| written(path, error))?,
-            Extent::default(),
-        ))
+    pub(super) fn create(path: &Path, torus: &Torus, writer: WriteFrame) -> Result<Self, FileError> {
+        let file = File::create_new(path).map_err(|error| written(path, error))?;
+        Ok(Self::new(path, torus, writer, file, Extent::default()))
     }
 
-    pub(super) fn resume(path: &Path, torus: &Torus, extent: Extent) -> Result<Self, FileError> {
+    pub(super) fn resume(
+        path: &Path,
+        torus: &Torus,
+        writer: WriteFrame,
+        extent: Extent,
+    ) -> Result<Self, FileError> {
         let file = File::options().write(true).open(path).map_err(|error| written(path, error))?;
         let cut = |mut file: File| -> std::io::Result<Result<File, u64>> {
             let found = file.metadata()?.len();
@@ -39,7 +43,7 @@ impl TextTrajectory {
             Ok(Ok(file))
         };
         match cut(file).map_err(|error| written(path, error))? {
-            Ok(file) => Ok(Self::new(path, torus, file, extent)),
+            Ok(file) => Ok(Self::new(path, torus, writer, file, extent)),
             Err(found) => Err(FileError::Extent {
                 path: path.to_owned(),
                 found: format!("{found} bytes"),
@@ -48,29 +52,30 @@ impl TextTrajectory {
         }
     }
 
-    fn new(path: &Path, torus: &Torus, file: File, extent: Extent) -> Self {
-        Self { path: path.to_owned(), torus: *torus, file: BufWriter::new(file), extent }
+    fn new(path: &Path, torus: &Torus, writer: WriteFrame, file: File, extent: Extent) -> Self {
+        Self { path: path.to_owned(), torus: *torus, writer, file: BufWriter::new(file), extent }
     }
 
     pub(super) fn append(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        write_frame(&mut self.file, &self.torus, frame)
+        (self.writer)(&mut self.file, &self.torus, frame)
             .and_then(|()| self.file.flush())
             .map_err(|error| written(&self.path, error))?;
         self.extent.frames += 1;
         Ok(())
     }
 
+    /// The length is that of what has the name, so that a file removed or cut in the meantime is noticed.
     pub(super) fn sync(&mut self) -> Result<Extent, FileError> {
-        let sync = |file: &mut BufWriter<File>| {
-            file.get_ref().sync_all()?;
-            file.stream_position()
+        let sync = || {
+            self.file.get_ref().sync_all()?;
+            Ok(std::fs::metadata(&self.path)?.len())
         };
-        self.extent.bytes = sync(&mut self.file).map_err(|error| written(&self.path, error))?;
+        self.extent.bytes = sync().map_err(|error| written(&self.path, error))?;
         Ok(self.extent)
     }
 }
 
 /// The error of a file that cannot be written.
-pub(super) fn written(path: &Path, problem: std::io::Error) -> FileError {
+fn written(path: &Path, problem: std::io::Error) -> FileError {
     FileError::Write { path: path.to_owned(), problem }
 }
