@@ -299,8 +299,12 @@ fn strengths_travel_with_the_discs() {
     let run = |out: &str, more: &[&str]| {
         succeed(
             folder.path(),
-            &[&["run", "small.toml", "--out", out, "--every", "4", "--set", "output.snapshots=0"], more]
-                .concat(),
+            &[
+                &["run", "small.toml", "--out", out, "--every", "4", "--set", "output.snapshots=0"],
+                &["--set", "output.trajectory_format=xyz"],
+                more,
+            ]
+            .concat(),
         );
         digest(folder.path(), out)
     };

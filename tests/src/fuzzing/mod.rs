@@ -14,6 +14,7 @@ mod bytes;
 mod checkpoint;
 mod configuration;
 mod golden;
+mod gsd;
 mod mesh_solve;
 mod near_force;
 mod pair_force;
@@ -25,6 +26,7 @@ pub use assignment::assignment;
 pub use checkpoint::checkpoint;
 pub use configuration::configuration;
 pub use golden::golden;
+pub use gsd::gsd;
 pub use mesh_solve::mesh_solve;
 pub use near_force::near_force;
 pub use pair_force::pair_force;
@@ -41,6 +43,7 @@ pub const TARGETS: [(&str, Target); 10] = [
     ("checkpoint", checkpoint),
     ("configuration", configuration),
     ("golden", golden),
+    ("gsd", gsd),
     ("mesh_solve", mesh_solve),
     ("near_force", near_force),
     ("pair_force", pair_force),

@@ -255,14 +255,13 @@ impl BoxOfFile {
 
 /// The fraction of the box at a coordinate from the middle.
 fn fraction(side: f32, id: usize, coordinate: f32) -> Result<Fraction, FormatError> {
-    let side = f64::from(side);
-    let coordinate = f64::from(coordinate);
-    if !(coordinate.abs() <= side * (0.5 + EDGE_TOLERANCE)) {
-        let expected = format!("coordinates from {} to {}", -side / 2.0, side / 2.0);
+    let (wide, of_side) = (f64::from(side), f64::from(coordinate) / f64::from(side));
+    if !(of_side.abs() <= 0.5 + EDGE_TOLERANCE) {
+        let expected = format!("coordinates from {} to {}", -wide / 2.0, wide / 2.0);
         return Err(wrong(format!("disc {id} at {coordinate}"), expected));
     }
     // Wraps at the edge.
-    Ok(Fraction::from_bits(libm::rint((coordinate / side + 0.5) * UNITS) as i64 as u32))
+    Ok(Fraction::from_bits(libm::rint((of_side + 0.5) * UNITS) as i64 as u32))
 }
 
 /// The number that bytes are.
