@@ -51,6 +51,7 @@ replay_each!(
     checkpoint,
     configuration,
     golden,
+    gsd,
     mesh_solve,
     near_force,
     pair_force,

@@ -237,7 +237,7 @@ proptest! {
                 prop_assert!((f64::from(single) - exact).abs() <= 1.2e-7 * side, "{single} {exact}");
             }
         }
-        let exact: Vec<[u32; 2]> = file.iter_arrays(0, "log/meniscus/position_bits").unwrap().collect();
+        let exact: Vec<[u32; 2]> = file.iter_arrays(0, "log/particles/position_bits").unwrap().collect();
         prop_assert!(exact.iter().zip(&bits).all(|(&[x, y], &bits)| (x, y) == bits));
         let state = gsd::read(&path, &torus, FrameChoice::Last).unwrap();
         prop_assert_eq!(state, State { step: 7, time, ..State::at_start(positions) });

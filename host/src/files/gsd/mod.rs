@@ -22,7 +22,7 @@
 //! | `log/particles/strength` | f64, n | capillary strengths, unless all are 1 |
 //! | `log/meniscus/box` | f64 | L exactly |
 //! | `log/meniscus/time` | u64 | time exactly, unit 2⁻⁴⁰ R0²/D |
-//! | `log/meniscus/position_bits` | u32 × 2, n | positions exactly, unit L·2⁻³² |
+//! | `log/particles/position_bits` | u32 × 2, n | positions exactly, unit L·2⁻³² |
 //!
 //! Discs are in the order of their ids. Every frame is on the disk when it has been appended, since the bytes depend on
 //! when they go there.
@@ -74,7 +74,7 @@ mod name {
     pub(super) const STRENGTH: &str = "log/particles/strength";
     pub(super) const EXACT_SIDE: &str = "log/meniscus/box";
     pub(super) const EXACT_TIME: &str = "log/meniscus/time";
-    pub(super) const EXACT_POSITION: &str = "log/meniscus/position_bits";
+    pub(super) const EXACT_POSITION: &str = "log/particles/position_bits";
 }
 
 /// Reads a frame of the file at `path`, in the box `torus`.
