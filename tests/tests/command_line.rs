@@ -300,7 +300,7 @@ fn strengths_travel_with_the_discs() {
         succeed(
             folder.path(),
             &[
-                &["run", "small.toml", "--out", out, "--every", "4", "--set", "output.snapshots=0"],
+                &["run", "small.toml", "--out", out, "--every", "4", "--set", "output.snapshots=0"][..],
                 &["--set", "output.trajectory_format=xyz"],
                 more,
             ]

@@ -145,7 +145,8 @@ impl Array {
     /// The data of a frame.
     fn data(&self, torus: &Torus, frame: &Frame<'_>) -> Vec<u8> {
         let number = |number: f64| number.to_le_bytes().to_vec();
-        let discs = frame.positions.iter().enumerate();
+        let fractions = frame.positions.iter().flat_map(|position| [position.x, position.y]);
+        let discs = 0..frame.positions.len();
         match self.name {
             name if name == BOX.name => number(torus.side()),
             name if name == STEP.name => frame.step.to_le_bytes().to_vec(),
@@ -157,20 +158,18 @@ impl Array {
             name if name == CLUSTERS.name => {
                 frame.clustered.map_or(-1, |clusters| clusters.count() as i32).to_le_bytes().to_vec()
             }
-            name if name == POSITIONS.name => discs
-                .flat_map(|(_, position)| [position.x, position.y])
-                .flat_map(|fraction| torus.coordinate(fraction).to_le_bytes())
-                .collect(),
-            name if name == EXACT_POSITIONS.name => discs
-                .flat_map(|(_, position)| [position.x, position.y])
-                .flat_map(|fraction| fraction.to_bits().to_le_bytes())
-                .collect(),
+            name if name == POSITIONS.name => {
+                fractions.flat_map(|fraction| torus.coordinate(fraction).to_le_bytes()).collect()
+            }
+            name if name == EXACT_POSITIONS.name => {
+                fractions.flat_map(|fraction| fraction.to_bits().to_le_bytes()).collect()
+            }
             name if name == IMAGES.name => discs
-                .flat_map(|(id, _)| frame.crossings.get(id).copied().unwrap_or_default())
+                .flat_map(|id| frame.crossings.get(id).copied().unwrap_or_default())
                 .flat_map(i32::to_le_bytes)
                 .collect(),
             _ => discs
-                .map(|(id, _)| frame.strengths.get(id).copied().unwrap_or(ONE))
+                .map(|id| frame.strengths.get(id).copied().unwrap_or(ONE))
                 .flat_map(|strength| strengths::to_number(strength).to_le_bytes())
                 .collect(),
         }

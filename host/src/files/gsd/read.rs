@@ -116,19 +116,20 @@ impl<R: Read + Seek> GsdReader<R> {
         };
         let (numbers, _) = exact.as_chunks::<4>();
         let (bits, _) = numbers.as_chunks::<2>();
-        let position = |(id, (bits, row)): (usize, (&[[u8; 4]; 2], &[[u8; 4]; 3]))| {
+        let mut positions = Vec::with_capacity(rows.len());
+        for (id, (bits, row)) in bits.iter().zip(rows).enumerate() {
             let [x, y] = bits.map(u32::from_ne_bytes);
             let position = Position::from_bits(x, y);
             let rounded = [centred(side, position.x), centred(side, position.y)];
             let shown = [f32::from_ne_bytes(row[0]), f32::from_ne_bytes(row[1])];
-            if rounded == shown {
-                Ok(position)
-            } else {
+            if rounded != shown {
                 let found = format!("disc {id} at {shown:?}, and {rounded:?} by {}", name::EXACT_POSITION);
-                Err(wrong(found, "the same: if the positions were changed, leave out that chunk".to_owned()))
+                let expected = "the same: if the positions were changed, leave out that chunk";
+                return Err(wrong(found, expected.to_owned()));
             }
-        };
-        bits.iter().zip(rows).enumerate().map(position).collect()
+            positions.push(position);
+        }
+        Ok(positions)
     }
 
     /// None if nothing is said or none went around.
@@ -256,7 +257,8 @@ impl BoxOfFile {
 /// The fraction of the box at a coordinate from the middle.
 fn fraction(side: f32, id: usize, coordinate: f32) -> Result<Fraction, FormatError> {
     let (wide, of_side) = (f64::from(side), f64::from(coordinate) / f64::from(side));
-    if !(of_side.abs() <= 0.5 + EDGE_TOLERANCE) {
+    let inside = of_side.abs() <= 0.5 + EDGE_TOLERANCE;
+    if !inside {
         let expected = format!("coordinates from {} to {}", -wide / 2.0, wide / 2.0);
         return Err(wrong(format!("disc {id} at {coordinate}"), expected));
     }

@@ -10,7 +10,7 @@ use meniscus_core::torus::Torus;
 use meniscus_core::units::time_from_units;
 use std::error::Error;
 use std::fs::File;
-use std::io::{BufReader, ErrorKind};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// What the header says who wrote the file.
@@ -261,7 +261,7 @@ fn failed(path: &Path, error: &(dyn Error + 'static)) -> FileError {
             Some(code) => std::io::Error::from_raw_os_error(code),
             None => std::io::Error::new(error.kind(), error.to_string()),
         },
-        None => std::io::Error::new(ErrorKind::Other, deepest.to_string()),
+        None => std::io::Error::other(deepest.to_string()),
     };
     FileError::Write { path: path.to_owned(), problem }
 }

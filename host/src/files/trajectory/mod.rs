@@ -58,7 +58,7 @@ pub struct Trajectory(Open);
 
 #[derive(Debug)]
 enum Open {
-    Gsd(GsdTrajectory),
+    Gsd(Box<GsdTrajectory>),
     Text(TextTrajectory),
     Npz(NpzTrajectory),
 }
@@ -66,8 +66,8 @@ enum Open {
 /// How to write a frame, if the format is of text.
 fn writer(format: Format) -> Option<WriteFrame> {
     match format {
-        Format::ExtendedXyz => Some(|output, torus, frame| extended_xyz::write_frame(output, torus, frame)),
-        Format::LammpsDump => Some(|output, torus, frame| lammps_dump::write_frame(output, torus, frame)),
+        Format::ExtendedXyz => Some(extended_xyz::write_frame),
+        Format::LammpsDump => Some(lammps_dump::write_frame),
         Format::Gsd | Format::Npz => None,
     }
 }
@@ -81,7 +81,7 @@ impl Trajectory {
         Ok(Self(match (format, writer(format)) {
             (_, Some(writer)) => Open::Text(TextTrajectory::create(path, torus, writer)?),
             (Format::Npz, None) => Open::Npz(NpzTrajectory::create(path, torus)?),
-            (_, None) => Open::Gsd(GsdTrajectory::create(path, torus)?),
+            (_, None) => Open::Gsd(Box::new(GsdTrajectory::create(path, torus)?)),
         }))
     }
 
@@ -95,7 +95,7 @@ impl Trajectory {
         Ok(Self(match (format, writer(format)) {
             (_, Some(writer)) => Open::Text(TextTrajectory::resume(path, torus, writer, extent)?),
             (Format::Npz, None) => Open::Npz(NpzTrajectory::resume(path, torus, extent)?),
-            (_, None) => Open::Gsd(GsdTrajectory::resume(path, torus, extent)?),
+            (_, None) => Open::Gsd(Box::new(GsdTrajectory::resume(path, torus, extent)?)),
         }))
     }
 
