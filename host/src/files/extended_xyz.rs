@@ -250,13 +250,17 @@ impl Header {
                     header.time = time_units(value)
                         .ok_or_else(|| refused(key, value, "a time from 0, R0²/D".to_owned()))?;
                 }
-                "time_over_jeans" => header.time_over_jeans = value.parse().ok(),
-                "dt" => header.time_step = value.parse().unwrap_or(0.0),
+                "time_over_jeans" => header.time_over_jeans = finite(value),
+                "dt" => header.time_step = finite(value).unwrap_or(0.0),
                 _ => {}
             }
         }
         Ok(header)
     }
+}
+
+fn finite(value: &str) -> Option<f64> {
+    value.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 /// The time in units of 2⁻⁴⁰ R0²/D.

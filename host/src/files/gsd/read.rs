@@ -85,9 +85,9 @@ impl<R: Read + Seek> GsdReader<R> {
         let strengths = self.strengths(frame, count)?;
         Ok(Recorded {
             state: State { step, time, positions, strengths, held: None },
-            time_over_jeans: self.number(frame, name::TIME_OVER_JEANS, kind::F64, f64::from_ne_bytes)?,
-            time_step: self.number(frame, name::TIME_STEP, kind::F64, f64::from_ne_bytes)?.unwrap_or(0.0),
-            largest_force: self.number(frame, name::LARGEST_FORCE, kind::F64, f64::from_ne_bytes)?,
+            time_over_jeans: self.observable(frame, name::TIME_OVER_JEANS)?,
+            time_step: self.observable(frame, name::TIME_STEP)?.unwrap_or(0.0),
+            largest_force: self.observable(frame, name::LARGEST_FORCE)?,
             crossings: self.crossings(frame, count)?,
         })
     }
@@ -179,6 +179,12 @@ impl<R: Read + Seek> GsdReader<R> {
         rows: usize,
     ) -> Result<Option<Vec<u8>>, FormatError> {
         self.of_discs(frame, name, kind, 1, rows)
+    }
+
+    /// A number that a log has of a frame, if it is one.
+    fn observable(&mut self, frame: u64, name: &'static str) -> Result<Option<f64>, FormatError> {
+        let number = self.number(frame, name, kind::F64, f64::from_ne_bytes)?;
+        Ok(number.filter(|number| number.is_finite()))
     }
 
     /// The number of a chunk of one, if there is one in this frame.
