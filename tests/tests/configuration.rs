@@ -193,14 +193,23 @@ fn output() -> BoxedStrategy<Output> {
     let steps = prop_oneof![Just(0), 1_u64..1000, Just(i64::MAX as u64)];
     let format = prop::sample::select(Format::WORDS.map(|(_, format)| format).to_vec());
     (times(), times(), format, times(), steps, times())
-        .prop_map(|(observables, trajectory, trajectory_format, snapshots, checkpoint_steps, checkpoint_minutes)| Output {
-            observables,
-            trajectory,
-            trajectory_format,
-            snapshots,
-            checkpoint_steps,
-            checkpoint_minutes,
-        })
+        .prop_map(
+            |(
+                observables,
+                trajectory,
+                trajectory_format,
+                snapshots,
+                checkpoint_steps,
+                checkpoint_minutes,
+            )| Output {
+                observables,
+                trajectory,
+                trajectory_format,
+                snapshots,
+                checkpoint_steps,
+                checkpoint_minutes,
+            },
+        )
         .boxed()
 }
 

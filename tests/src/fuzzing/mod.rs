@@ -38,7 +38,7 @@ pub use step::step;
 pub type Target = fn(&[u8]);
 
 /// Every target with the name of its folder in the corpus.
-pub const TARGETS: [(&str, Target); 10] = [
+pub const TARGETS: [(&str, Target); 11] = [
     ("assignment", assignment),
     ("checkpoint", checkpoint),
     ("configuration", configuration),
