@@ -135,16 +135,26 @@ fn start_and_kill_never(folder: &Path, arguments: &[&str]) -> bool {
     command.status().unwrap().success()
 }
 
-/// With `MENISCUS_LONG_TESTS=1`: 200 kills, on the disk.
+/// With `MENISCUS_LONG_TESTS=1`: 200 kills, on the disk, and 50 with each further format of trajectories.
 #[test]
 fn a_run_that_is_killed_and_resumed_leaves_what_a_run_leaves() {
-    let (folder, kills, patience, more): (_, _, _, &[&str]) = if long_tests() {
-        (tempfile::tempdir().unwrap(), 200, 400, &["--set", "output.snapshots=0.03"])
+    let formats: &[(&str, usize)] = if long_tests() {
+        &[("gsd", 200), ("xyz", 50), ("lammps", 50), ("npz", 50)]
     } else {
-        (fast_folder(), 10, 150, &[])
+        &[("gsd", 8), ("npz", 4)]
     };
-    let table = campaign(folder.path(), more, kills, Duration::from_millis(patience));
-    eprintln!("{table:#?}");
-    assert_eq!(table.mismatches, 0);
-    assert!(table.kills >= kills && table.resumes > 0);
+    for &(format, kills) in formats {
+        let format = format!("output.trajectory_format={format}");
+        let pictures = ["--until", "0.3", "--set", "output.snapshots=0.05"];
+        let (folder, patience, pictures) = if long_tests() {
+            (tempfile::tempdir().unwrap(), 400, &pictures[..])
+        } else {
+            (fast_folder(), 150, &[][..])
+        };
+        let more = [pictures, &["--set", &format]].concat();
+        let table = campaign(folder.path(), &more, kills, Duration::from_millis(patience));
+        eprintln!("{format}: {table:?}");
+        assert_eq!(table.mismatches, 0);
+        assert!(table.kills >= kills && table.resumes > 0);
+    }
 }
