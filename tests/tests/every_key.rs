@@ -147,8 +147,8 @@ fn mistakes(key: &Key) -> Vec<Vec<String>> {
 
 fn refusal(key: &Key, lines: &[String]) -> String {
     let read = Configuration::from_text("file", &text(key, lines), &[]);
-    let Err(error) = read else { panic!("{lines:?} is accepted") };
-    let message = error.to_string();
+    assert!(read.is_err(), "{lines:?} is accepted");
+    let message = read.err().unwrap().to_string();
     assert_eq!(message.lines().count(), 1, "{message}");
     assert!(!message.contains(char::is_control), "{message}");
     // A key that is required is missed when it is misspelt or only a table.
