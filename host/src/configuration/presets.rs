@@ -151,9 +151,10 @@ mod tests {
     #[test]
     fn every_preset_gives_every_key_that_applies_and_is_not_chosen() {
         use crate::configuration::entries::Entries;
-        /// Chosen for the accuracy, or nothing: no preset has external fields or unequal discs, or holds mesh forces.
+        /// Chosen for the accuracy, or nothing: no preset has external fields or unequal discs, or holds mesh forces. Or no
+        /// matter of the system: in which format files are, and how often it is seen to it that a run can go on.
         fn is_left(key: &str) -> bool {
-            let tables = ["mesh.", "field."];
+            let tables = ["mesh.", "field.", "output.trajectory_format", "output.checkpoint_"];
             let leaves = ["force.splitting", "force.cutoff", "force.mesh_refresh", ".strengths"];
             tables.iter().any(|table| key.starts_with(table)) || leaves.iter().any(|leaf| key.ends_with(leaf))
         }
