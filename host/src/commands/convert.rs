@@ -39,14 +39,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let mut frames =
         Frames { reader: TrajectoryReader::open(from, torus.as_ref())?, from, only: *frame, read: 0 };
     let written = match target {
-        Target::Trajectory(format) => {
-            let written = write_trajectory(&mut frames, to, format);
-            if written.is_err() {
-                // Half a trajectory is of no use, and there is nothing to be done if it cannot be removed.
-                let _ = std::fs::remove_file(to);
-            }
-            written?
-        }
+        Target::Trajectory(format) => write_trajectory(&mut frames, to, format)?,
         Target::Csv | Target::State => {
             let mut last = None;
             while let Some(frame) = frames.next()? {
@@ -113,7 +106,7 @@ impl Frames<'_> {
     fn next(&mut self) -> Result<Option<Recorded>, FileError> {
         while let Some(frame) = self.reader.read_frame()? {
             self.read += 1;
-            if self.only.is_none_or(|only| only + 1 == self.read) {
+            if self.only.is_none_or(|only| self.read - 1 == only) {
                 return Ok(Some(frame));
             }
         }
@@ -134,19 +127,33 @@ impl Frames<'_> {
 
 /// Writes the frames to a new file; how many.
 fn write_trajectory(frames: &mut Frames<'_>, to: &Path, format: Format) -> Result<u64, FileError> {
-    let mut next = frames.next()?;
+    let next = frames.next()?;
     if next.is_none() {
         return Err(frames.missing());
     }
     let torus = frames.torus()?;
-    let mut trajectory = Trajectory::create(to, format, &torus)?;
+    let trajectory = Trajectory::create(to, format, &torus)?;
+    let written = append_frames(frames, next, &torus, trajectory);
+    if written.is_err() {
+        // Half a trajectory is of no use, and there is nothing to be done if it cannot be removed.
+        let _ = std::fs::remove_file(to);
+    }
+    written
+}
+
+fn append_frames(
+    frames: &mut Frames<'_>,
+    mut next: Option<Recorded>,
+    torus: &Torus,
+    mut trajectory: Trajectory,
+) -> Result<u64, FileError> {
     while next.is_some() {
         let (mut batch, mut discs) = (Vec::new(), 0);
         while discs < DISCS_AT_A_TIME
             && let Some(frame) = next
         {
             discs += frame.state.positions.len().max(1);
-            let clusters = Clusters::find(&torus, &frame.state.positions);
+            let clusters = Clusters::find(torus, &frame.state.positions);
             batch.push((frame, clusters));
             next = frames.next()?;
         }

@@ -265,8 +265,9 @@ impl<S: ShowsField> Stages for Traced<'_, S> {
     fn mesh(&mut self, forces: &Forces, memory: &mut Memory<'_>) -> Result<(), Crowded> {
         self.stages.mesh(forces, memory)?;
         if forces.coupling() != Coupling::None {
-            // Sums of strengths are signed.
-            self.trace.set(Stage::Masses, memory.nodes.iter().map(|&mass| i64::from(mass as i32)));
+            let signed = forces.coupling() == Coupling::Unequal;
+            let mass = |mass: u32| if signed { i64::from(mass as i32) } else { i64::from(mass) };
+            self.trace.set(Stage::Masses, memory.nodes.iter().map(|&node| mass(node)));
             // Zeros of either sign are one number.
             let bits = |value: f32| i64::from((value + 0.0).to_bits());
             let field = self.stages.field(forces.grid().nodes(), memory);

@@ -34,6 +34,7 @@ impl<'a, T, const COUNT: usize, const LENGTH: usize, const PART: u8> Runs<'a, T,
     #[inline(always)]
     #[must_use]
     pub fn new(elements: &'a [T], first: usize, distance: isize) -> Option<Self> {
+        const { assert!(COUNT <= isize::MAX as usize) };
         let begin = first.checked_add_signed(distance.checked_mul(Self::BEGIN as isize)?)?;
         let last = first.checked_add_signed(distance.checked_mul(Self::LAST as isize)?)?;
         let inside = begin.max(last).checked_add(LENGTH)? <= elements.len();
