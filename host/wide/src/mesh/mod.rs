@@ -153,7 +153,7 @@ const fn pitch(grid: Grid) -> usize {
 }
 
 impl Wide {
-    /// Blocks of working memory of a piece: two lines of rows, or a group of lines and a line.
+    /// Blocks of working memory of a piece: two tiles of rows; lines along y need less.
     const fn scratch_length(grid: Grid) -> usize {
         2 * grid.nodes()
     }
