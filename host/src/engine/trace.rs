@@ -20,6 +20,7 @@
 //! let [host, core] = traces;
 //! assert_eq!(host?.first_difference(&core?), None);
 //! assert_eq!(Stage::PairForce.to_string(), "pair force");
+//! # Ok::<(), meniscus::engine::EngineError>(())
 //! ```
 
 use meniscus_core::assignment::Crowded;
