@@ -223,6 +223,14 @@ fn an_end_before_the_present_is_refused_and_a_finished_run_says_so() {
     assert!(!folder.path().join("lock").exists());
 }
 
+/// Adds a row to the table of observables, as a run does after its last checkpoint; gives what is in the file then.
+fn add_row(run: &Path) -> Vec<u8> {
+    let path = run.join("observables.csv");
+    let bytes = [fs::read(&path).unwrap().as_slice(), b"1"].concat();
+    fs::write(&path, &bytes).unwrap();
+    bytes
+}
+
 #[test]
 fn files_that_are_cut_or_gone_are_named() {
     let folder = folder();
@@ -241,7 +249,10 @@ fn files_that_are_cut_or_gone_are_named() {
         refuse(folder.path(), &["resume", "run"], &[&message]);
         if name != "golden.toml" {
             fs::write(&path, &whole[..whole.len() - 1]).unwrap();
+            // What the table got after the checkpoint is still there when another file is refused.
+            let before = if name == trajectory { add_row(&run) } else { fs::read(&path).unwrap() };
             refuse(folder.path(), &["resume", "run"], &[name, "found", "put the whole file back"]);
+            assert_eq!(fs::read(run.join("observables.csv")).unwrap(), before);
         }
         fs::write(&path, &whole).unwrap();
     }

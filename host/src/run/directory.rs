@@ -86,13 +86,15 @@ impl Directory {
                 return Err(RunError::Gone(path.clone()));
             }
         }
-        let observables = Growing::resume(&observables_path, progress.observables.bytes)?;
+        // Nothing is dropped before everything has been looked at; a trajectory looks before it drops.
+        let mut observables = Growing::open(&observables_path, progress.observables.bytes)?;
         let extent = progress.trajectory.extent();
         let trajectory = Trajectory::resume(&trajectory_path, format, &simulation.torus, extent);
         let trajectory = trajectory.map_err(|error| match error {
             FileError::Extent { .. } => RunError::Lost(error),
             other => other.into(),
         })?;
+        observables.cut()?;
         remove_leftovers(path, progress.snapshots.next)?;
         let text = configuration.to_toml();
         let written = fs::read(path.join(CONFIGURATION)).is_ok_and(|found| found == text.as_bytes());

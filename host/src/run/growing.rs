@@ -20,21 +20,31 @@ impl Growing {
         Ok(Self { file: BufWriter::new(file), place: Place::of(path)? })
     }
 
-    /// Opens the file to go on after its first `length` bytes; what follows them is dropped.
-    pub(super) fn resume(path: &Path, length: u64) -> Result<Self, RunError> {
+    /// Opens the file to go on after its first `length` bytes, which it must have; what follows them is for
+    /// [`Growing::cut`] to drop.
+    pub(super) fn open(path: &Path, length: u64) -> Result<Self, RunError> {
         let open = || -> std::io::Result<(File, u64)> {
             let file = File::options().write(true).open(path)?;
             let found = file.metadata()?.len();
             Ok((file, found))
         };
-        let (mut file, found) = open().map_err(|source| written(path, source))?;
+        let (file, found) = open().map_err(|source| written(path, source))?;
         if found < length {
             let (found, expected) = (format!("{found} bytes"), format!("{length} bytes"));
             return Err(RunError::Lost(FileError::Extent { path: path.to_owned(), found, expected }));
         }
-        let mut cut = || file.set_len(length).and_then(|()| file.seek(SeekFrom::End(0)));
-        cut().map_err(|source| written(path, source))?;
-        Ok(Self { file: BufWriter::new(file), place: Place::of(path)? })
+        Ok(Self { file: BufWriter::new(file), place: Place { length, ..Place::of(path)? } })
+    }
+
+    /// Drops what the file has beyond the length that it was opened with.
+    pub(super) fn cut(&mut self) -> Result<(), RunError> {
+        let length = self.place.length;
+        self.file
+            .get_ref()
+            .set_len(length)
+            .and_then(|()| self.file.seek(SeekFrom::Start(length)))
+            .map_err(|source| written(&self.place.path, source))?;
+        Ok(())
     }
 
     /// Appends `line` and hands it to the system, so that it outlives this program.
