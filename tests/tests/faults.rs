@@ -299,6 +299,26 @@ fn a_file_that_is_removed_under_way_is_noticed() {
     }
 }
 
+#[test]
+fn a_file_that_is_cut_under_way_is_noticed() {
+    let folder = folder();
+    let formats = ["gsd", "xyz", "lammps", "npz"].map(|format| format!("output.trajectory_format={format}"));
+    let trajectories = formats.iter().map(|format| (format.as_str(), "trajectory."));
+    for (format, name) in trajectories.chain([(formats[0].as_str(), "observables.csv")]) {
+        let more = [&LONG[..], &["--set", format]].concat();
+        let child = program(folder.path(), &run("run", &more)).spawn().unwrap();
+        let run = folder.path().join("run");
+        wait_for_step(&run, 12);
+        let entries = fs::read_dir(&run).unwrap().map(|entry| entry.unwrap().path());
+        let path = entries.into_iter().find(|path| path.to_str().unwrap().contains(name)).unwrap();
+        fs::File::options().write(true).open(&path).unwrap().set_len(0).unwrap();
+        let output = child.wait_with_output().unwrap();
+        told(&output, Some(2), &[name, "found 0 bytes", "the file was changed while the run was writing it"]);
+        assert!(run.join("final.state").exists());
+        fs::remove_dir_all(run).unwrap();
+    }
+}
+
 /// A limit on the size of files takes the place of a disk that is full: what is written is cut in the same way.
 #[test]
 fn a_full_disk_loses_nothing_that_was_written() {

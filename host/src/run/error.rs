@@ -59,6 +59,20 @@ pub enum RunError {
          final.state in another directory by `start.kind=file`", .0.display()
     )]
     Removed(PathBuf),
+    /// A file was cut or written to by somebody else while the run was writing it.
+    #[error(
+        "{}: found {found} bytes, the run has written {expected}: the file was changed while the run was writing it; put \
+         the whole file back and resume, or go on from final.state in another directory by `start.kind=file`",
+        path.display()
+    )]
+    Changed {
+        /// The file.
+        path: PathBuf,
+        /// Its length, bytes.
+        found: u64,
+        /// The length it should have, bytes.
+        expected: u64,
+    },
     /// A step was refused. The state before it has been written.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -52,25 +52,27 @@ impl Growing {
         self.place.check()?;
         writeln!(self.file, "{line}")
             .and_then(|()| self.file.flush())
-            .map_err(|source| written(&self.place.path, source))
+            .map_err(|source| written(&self.place.path, source))?;
+        self.place.length += line.len() as u64 + 1;
+        Ok(())
     }
 
     /// Waits until the file is on the disk, and tells its length.
     pub(super) fn sync(&mut self) -> Result<u64, RunError> {
         self.place.check()?;
-        let sync = |file: &mut BufWriter<File>| {
-            file.get_ref().sync_all()?;
-            file.stream_position()
-        };
-        sync(&mut self.file).map_err(|source| written(&self.place.path, source))
+        self.file.get_ref().sync_all().map_err(|source| written(&self.place.path, source))?;
+        Ok(self.place.length)
     }
 }
 
-/// A file under its name, to notice when it is removed or another takes its place.
+/// A file under its name, to notice when it is removed, when another takes its place, and when others cut it or write
+/// to it.
 #[derive(Debug)]
 pub(super) struct Place {
     path: PathBuf,
     identity: Identity,
+    /// How long it is to be, bytes.
+    length: u64,
 }
 
 /// What tells a file from any other; nothing where the system has no such thing.
@@ -80,19 +82,30 @@ impl Place {
     /// The file that is at `path`.
     pub(super) fn of(path: &Path) -> Result<Self, RunError> {
         let metadata = fs::metadata(path).map_err(|source| written(path, source))?;
-        Ok(Self { path: path.to_owned(), identity: identity(&metadata) })
+        Ok(Self { path: path.to_owned(), identity: identity(&metadata), length: metadata.len() })
     }
 
-    /// Takes the file that is there now for the one it was.
+    /// Takes the file that is there now for the one it was. It may have grown.
     pub(super) fn renew(&mut self) -> Result<(), RunError> {
-        *self = Self::of(&self.path)?;
+        let now = Self::of(&self.path)?;
+        if now.length < self.length {
+            return Err(self.changed(now.length));
+        }
+        *self = now;
         Ok(())
     }
 
-    /// Whether it still is.
+    fn changed(&self, found: u64) -> RunError {
+        RunError::Changed { path: self.path.clone(), found, expected: self.length }
+    }
+
+    /// Whether it still is, as long as it was.
     pub(super) fn check(&self) -> Result<(), RunError> {
         match fs::metadata(&self.path) {
-            Ok(metadata) if identity(&metadata) == self.identity => Ok(()),
+            Ok(metadata) if identity(&metadata) == self.identity => match metadata.len() {
+                found if found == self.length => Ok(()),
+                found => Err(self.changed(found)),
+            },
             _ => Err(RunError::Removed(self.path.clone())),
         }
     }

@@ -373,7 +373,7 @@ impl Run {
             return error;
         }
         let _ = self.write_last(Ending::Failed);
-        if let RunError::Removed(_) = error {
+        if let RunError::Removed(_) | RunError::Changed { .. } = error {
             return error;
         }
         let (directory, step) = (self.directory.path().to_owned(), self.checkpoints.step);
