@@ -353,6 +353,35 @@ fn a_device_without_room_is_said_before_the_run() {
 }
 
 #[test]
+fn a_golden_file_is_kept_off_what_the_run_writes() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder();
+    let names = ["final.csv", "checkpoint", "run.json", "config.toml", "trajectory.gsd", "lock", "mine.toml"];
+    let paths = names.map(|name| format!("run/{name}"));
+    let paths = paths.iter().map(String::as_str);
+    for path in paths.chain(["./run/final.csv", "run", "run/"]) {
+        let parts = ["the golden file cannot be here", "own files"];
+        refuse(folder.path(), &run("run", &["--golden", path]), &parts);
+        assert!(!folder.path().join("run").exists(), "{path}");
+    }
+    refuse(folder.path(), &run("nowhere/run", &["--golden", "nowhere"]), &["nowhere: ", "own files"]);
+    refuse(folder.path(), &run("run", &["--golden", "nowhere/g"]), &["nowhere/g: ", "folder does not exist"]);
+    let output = program(folder.path(), &run("run", &["--golden"]))
+        .arg(std::ffi::OsStr::from_bytes(b"g\xff.toml"))
+        .output()
+        .unwrap();
+    told(&output, Some(2), &["not UTF-8"]);
+    assert!(!folder.path().join("run").exists() && !folder.path().join("nowhere").exists());
+    // The directory may be there, empty, and be called otherwise.
+    fs::create_dir(folder.path().join("run")).unwrap();
+    std::os::unix::fs::symlink("run", folder.path().join("other")).unwrap();
+    refuse(folder.path(), &run("run", &["--golden", "other/final.csv"]), &["own files"]);
+    succeed(folder.path(), &run("run", &["--golden", "./run/golden.toml", "--max-wall", "0"]));
+    succeed(folder.path(), &run("whole", &[]));
+    assert_goes_on(folder.path());
+}
+
+#[test]
 fn numbers_of_threads_out_of_range_are_refused() {
     let folder = folder();
     stopped_and_whole(folder.path());

@@ -23,6 +23,14 @@ pub enum RunError {
     /// The golden file is there already.
     #[error("{}: this golden file exists; `meniscus verify` compares with it, or name another with --golden", .0.display())]
     GoldenExists(PathBuf),
+    /// The golden file cannot be where it is asked for.
+    #[error("{}: the golden file cannot be here: {reason} with --golden", path.display())]
+    GoldenPlace {
+        /// The golden file.
+        path: PathBuf,
+        /// Why not, and what to do.
+        reason: &'static str,
+    },
     /// A file could not be written.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {

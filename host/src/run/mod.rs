@@ -112,6 +112,37 @@ impl GoldenRequest {
         Self { path: directory.join("golden.toml"), every: GOLDEN_INTERVAL }
     }
 
+    /// Refuses a file that would get in the run's way, that a checkpoint could not name, or that has no folder.
+    fn check(&self, directory: &Path) -> Result<(), RunError> {
+        let refused = |reason| Err(RunError::GoldenPlace { path: self.path.clone(), reason });
+        if self.path.exists() {
+            return Err(RunError::GoldenExists(self.path.clone()));
+        }
+        let absolute = |path: &Path| {
+            std::path::absolute(path).map_err(|source| RunError::Write { path: path.to_owned(), source })
+        };
+        let (own, path, run) =
+            (Self::in_directory(directory).path, absolute(&self.path)?, absolute(directory)?);
+        let folder = path.parent().unwrap_or(&path);
+        // The run's directory may be there already, under other names.
+        let is_same = |run: &Path| {
+            folder.canonicalize().is_ok_and(|path| run.canonicalize().is_ok_and(|run| run == path))
+        };
+        let in_run = folder == run || is_same(&run);
+        if run.starts_with(&path) || (in_run && path.file_name() != own.file_name()) {
+            return refused("the run keeps its own files there; name golden.toml or one elsewhere");
+        }
+        if self.path != own && path.to_str().is_none() {
+            return refused(
+                "the path is not UTF-8 and could not be found again by `meniscus resume`; name another",
+            );
+        }
+        if !in_run && !folder.is_dir() {
+            return refused("the folder does not exist; make it, or name another");
+        }
+        Ok(())
+    }
+
     /// What a checkpoint in `directory` has to remember of it.
     fn progress(&self, directory: &Path, records: usize) -> Records {
         let is_own = self.path == Self::in_directory(directory).path;
@@ -164,16 +195,14 @@ impl Run {
     ///
     /// # Errors
     /// A [`RunError`]; a directory that has something in it, or in which another run is at work, and a golden file that
-    /// exists are refused.
+    /// exists, has no folder, or would have the name of one of the run's own files are refused.
     pub fn create(
         simulation: Simulation,
         directory: &Path,
         golden_request: GoldenRequest,
     ) -> Result<Self, RunError> {
         Directory::refuse_used(directory)?;
-        if golden_request.path.exists() {
-            return Err(RunError::GoldenExists(golden_request.path));
-        }
+        golden_request.check(directory)?;
         let configuration = &simulation.configuration;
         let Output { observables, trajectory, snapshots, .. } = configuration.output;
         let (scale, clock) = (configuration.time_scale(), simulation.engine.clock());
