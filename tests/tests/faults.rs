@@ -382,6 +382,27 @@ fn a_golden_file_is_kept_off_what_the_run_writes() {
 }
 
 #[test]
+fn a_last_state_that_cannot_be_written_is_said_beside_the_refused_step() {
+    use meniscus::configuration::Configuration;
+    use meniscus::run::{GoldenRequest, Run};
+    let folder = folder();
+    let start = folder.path().join("two.csv");
+    fs::write(&start, "x,y\n20,20\n20,20\n").unwrap();
+    let start = format!("start.path={:?}", start.to_str().unwrap());
+    let keys = ["system.particles=2", "start.kind=file", &start, "motion.max_displacement=1e-12"];
+    let configuration = Configuration::read(&folder.path().join("small.toml"), &keys.map(str::to_owned));
+    let simulation = meniscus::simulation::Simulation::new(configuration.unwrap()).unwrap();
+    let directory = folder.path().join("run");
+    let run = Run::create(simulation, &directory, GoldenRequest::in_directory(&directory)).unwrap();
+    fs::create_dir(directory.join("final.state")).unwrap();
+    let error = run.to_end(|_| None).unwrap_err().to_string();
+    assert!(
+        error.contains("is refused: the largest force") && error.contains("final.state: cannot"),
+        "{error}"
+    );
+}
+
+#[test]
 fn numbers_of_threads_out_of_range_are_refused() {
     let folder = folder();
     stopped_and_whole(folder.path());

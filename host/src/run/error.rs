@@ -81,6 +81,9 @@ pub enum RunError {
         /// The length it should have, bytes.
         expected: u64,
     },
+    /// The run failed, and what it had come to could not be written.
+    #[error("{}; and the last state could not be written: {}", .0[0], .0[1])]
+    Both(Box<[RunError; 2]>),
     /// A step was refused. The state before it has been written.
     #[error(transparent)]
     Engine(#[from] EngineError),

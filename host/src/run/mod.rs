@@ -396,15 +396,17 @@ impl Run {
 
     /// Writes what can still be written, and says how to go on.
     fn fail(mut self, error: RunError) -> RunError {
-        // The first error is the one to tell.
-        if let RunError::Engine(_) = error {
-            let _ = self.finish(Ending::Failed);
-            return error;
+        let written = match error {
+            RunError::Engine(_) => self.finish(Ending::Failed),
+            _ => self.write_last(Ending::Failed),
+        };
+        if let RunError::Engine(_) | RunError::Removed(_) | RunError::Changed { .. } = error {
+            return match written {
+                Ok(()) => error,
+                Err(second) => RunError::Both(Box::new([error, second])),
+            };
         }
-        let _ = self.write_last(Ending::Failed);
-        if let RunError::Removed(_) | RunError::Changed { .. } = error {
-            return error;
-        }
+        // That writing failed is what this error says, and the checkpoint is there to go on from.
         let (directory, step) = (self.directory.path().to_owned(), self.checkpoints.step);
         RunError::Unwritten { source: Box::new(error), directory, step }
     }
