@@ -16,6 +16,7 @@ use crate::snapshot;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::time_from_units;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Name of the configuration as run.
@@ -38,8 +39,19 @@ pub(super) struct Directory {
 impl Directory {
     /// Refuses a directory that has something in it.
     pub(super) fn refuse_used(path: &Path) -> Result<(), RunError> {
-        let used = |entry: fs::DirEntry| entry.file_name() != lock::FILE;
-        if fs::read_dir(path).is_ok_and(|mut entries| entries.any(|entry| entry.is_ok_and(used))) {
+        let is_used = || -> std::io::Result<bool> {
+            let entries = match fs::read_dir(path) {
+                Err(error) if error.kind() == ErrorKind::NotFound => return Ok(false),
+                entries => entries?,
+            };
+            for entry in entries {
+                if entry?.file_name() != lock::FILE {
+                    return Ok(true);
+                }
+            }
+            Ok(false)
+        };
+        if is_used().map_err(|source| RunError::Write { path: path.to_owned(), source })? {
             // Whoever is at work there is the better reason.
             if path.join(lock::FILE).exists() {
                 Lock::take(path)?;
