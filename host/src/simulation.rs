@@ -76,7 +76,8 @@ impl Simulation {
         memory::check(&configuration)?;
         let torus = torus(&configuration)?;
         let state = initial_state(&configuration, &torus)?;
-        Self::at(configuration, state, machinery)
+        // What the start takes is in the estimate: it is not to be compared with what is left beside the start.
+        Self::made(configuration, torus, state, machinery)
     }
 
     /// A run that stands at `state`, wherever the configuration says that it started; otherwise as
@@ -85,12 +86,21 @@ impl Simulation {
     /// # Errors
     /// A [`SimulationError`].
     pub fn at(
-        mut configuration: Configuration,
+        configuration: Configuration,
         state: State,
         machinery: Machinery,
     ) -> Result<Self, SimulationError> {
         memory::check(&configuration)?;
         let torus = torus(&configuration)?;
+        Self::made(configuration, torus, state, machinery)
+    }
+
+    fn made(
+        mut configuration: Configuration,
+        torus: Torus,
+        state: State,
+        machinery: Machinery,
+    ) -> Result<Self, SimulationError> {
         let State { positions, step, time, strengths, held } = state;
         if let (Some(strengths), Start::File { path, .. }) = (strengths, &configuration.start) {
             configuration.strengths = start::settle_strengths(configuration.strengths, strengths, path)?;

@@ -15,7 +15,7 @@ use std::io::{ErrorKind, Write};
 /// How much to tell, and in which form.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(super) struct Reporting {
-    /// Tell more: what was chosen, timings, checkpoints.
+    /// Tell more: what was chosen, timings.
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     verbose: bool,
     /// Tell results and errors only.
