@@ -1,7 +1,7 @@
 //! Trajectories: files to which a run appends a frame now and then.
 //!
 //! What a file holds of a frame is said in the module of its format: [`gsd`](super::gsd),
-//! [`extended_xyz`](super::extended_xyz), [`lammps_dump`](super::lammps_dump), [`npz`](super::npz).
+//! [`extended_xyz`], [`lammps_dump`], [`npz`](super::npz).
 //!
 //! A run that goes on after a stop first drops what the file got after its checkpoint, so that the file ends
 //! with the bytes that an uninterrupted run would have written.
