@@ -12,11 +12,11 @@ use meniscus::observables::clusters::Clusters;
 use meniscus::strengths::ONE;
 use meniscus_core::torus::{LARGEST_SIDE, Position, SMALLEST_SIDE, Torus};
 use meniscus_tests::long_tests;
+use meniscus_tests::program::Program;
 use proptest::prelude::*;
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
-use std::process::{Command, Output};
 
 const FORMATS: [Format; 4] = [Format::Gsd, Format::ExtendedXyz, Format::LammpsDump, Format::Npz];
 
@@ -363,38 +363,21 @@ const SMALL: &str = "version = 1\nseed = 7\n\
     [time]\nuntil = 0.3\n\
     [output]\nobservables = 0.1\ntrajectory = 0.1\nsnapshots = 0\n";
 
-fn start(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_meniscus-under-test"));
-    command.current_dir(folder).args(arguments).output().unwrap()
-}
-
-fn succeed(folder: &Path, arguments: &[&str]) -> String {
-    let output = start(folder, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-fn refuse(folder: &Path, arguments: &[&str], part: &str) {
-    let output = start(folder, arguments);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {errors}");
-    assert!(
-        errors.contains(part) && errors.starts_with("error: ") && errors.lines().count() == 1,
-        "{errors}"
-    );
+fn program() -> Program {
+    Program::new(env!("CARGO_BIN_EXE_meniscus-under-test"))
 }
 
 #[test]
 fn a_run_in_one_format_converted_is_the_run_in_the_other() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    fs::write(folder.join("small.toml"), SMALL).unwrap();
+    let program = program();
+    program.write("small.toml", SMALL);
+    let folder = program.folder();
     for (word, _) in Format::WORDS {
         let set = format!("output.trajectory_format={word}");
-        succeed(folder, &["run", "small.toml", "--out", word, "--set", &set]);
+        program.succeed(&["run", "small.toml", "--out", word, "--set", &set]);
     }
     let bytes = |name: &str| fs::read(folder.join(name)).unwrap();
-    let digest = succeed(folder, &["digest", "gsd"]);
+    let digest = program.succeed(&["digest", "gsd"]);
     for (from, to) in [
         ("gsd/trajectory.gsd", "xyz/trajectory.xyz"),
         ("gsd/trajectory.gsd", "lammps/trajectory.lammpstrj"),
@@ -412,27 +395,27 @@ fn a_run_in_one_format_converted_is_the_run_in_the_other() {
     ] {
         let name = format!("converted-{}", to.replace('/', "-"));
         let _ = fs::remove_file(folder.join(&name));
-        succeed(folder, &["convert", from, &name]);
+        program.succeed(&["convert", from, &name]);
         assert!(bytes(&name) == bytes(to), "{from} to {to}");
     }
     for name in ["gsd/trajectory.gsd", "xyz/trajectory.xyz", "npz/trajectory.npz"] {
-        assert_eq!(succeed(folder, &["digest", name]), digest);
+        assert_eq!(program.succeed(&["digest", name]), digest);
     }
 
     // A frame in the middle is as good as a stop there.
-    let said = succeed(folder, &["convert", "gsd/trajectory.gsd", "middle.gsd", "--frame", "1"]);
+    let said = program.succeed(&["convert", "gsd/trajectory.gsd", "middle.gsd", "--frame", "1"]);
     assert_eq!(said, "middle.gsd: 1 frame\n");
     let go_on = ["--set", "start.kind=file", "--set", "start.path=middle.gsd"];
-    succeed(folder, &[&["run", "small.toml", "--out", "rest"], &go_on[..]].concat());
-    assert_eq!(succeed(folder, &["digest", "rest"]), digest);
-    let forces = |file: &str| succeed(folder, &["forces", "small.toml", "--positions", file]);
+    program.succeed(&[&["run", "small.toml", "--out", "rest"], &go_on[..]].concat());
+    assert_eq!(program.succeed(&["digest", "rest"]), digest);
+    let forces = |file: &str| program.succeed(&["forces", "small.toml", "--positions", file]);
     assert_eq!(forces("gsd/trajectory.gsd"), forces("gsd/final.csv"));
 }
 
 #[test]
 fn mistakes_in_a_conversion_are_told_in_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
+    let program = program();
+    let folder = program.folder();
     let at = |name: &str| folder.join(name);
     grown(&at("a.gsd"), Format::Gsd, &torus(33.3), 2, 3);
     fs::write(at("a.csv"), "x,y\n1,2\n").unwrap();
@@ -442,7 +425,7 @@ fn mistakes_in_a_conversion_are_told_in_one_line() {
     fs::write(at("junk.lammpstrj"), "ITEM: ATOMS\nITEM").unwrap();
     fs::write(at("empty.xyz"), "").unwrap();
     fs::write(at("there.xyz"), "mine").unwrap();
-    refuse(folder, &["convert", "a.gsd", "there.xyz"], "there.xyz: cannot be written");
+    program.refuse(&["convert", "a.gsd", "there.xyz"], &["there.xyz: cannot be written"]);
     assert_eq!(fs::read(at("there.xyz")).unwrap(), b"mine");
     for (arguments, part) in [
         (&["a.gsd", "b.pdf"][..], "b.pdf: no known ending for positions: use .csv"),
@@ -468,9 +451,9 @@ fn mistakes_in_a_conversion_are_told_in_one_line() {
             "junk.lammpstrj: line 1: found `ATOMS`, expected columns named x and y",
         ),
     ] {
-        refuse(folder, &[&["convert"], arguments].concat(), part);
+        program.refuse(&[&["convert"], arguments].concat(), &[part]);
         assert!(!at("b.gsd").exists() && !at("b.xyz").exists(), "nothing half-made is left: {arguments:?}");
     }
-    assert_eq!(succeed(folder, &["convert", "a.csv", "b.gsd", "--box", "8"]), "b.gsd: 1 frame\n");
-    refuse(folder, &["digest", "torn.gsd"], "torn.gsd");
+    assert_eq!(program.succeed(&["convert", "a.csv", "b.gsd", "--box", "8"]), "b.gsd: 1 frame\n");
+    program.refuse(&["digest", "torn.gsd"], &["torn.gsd"]);
 }
