@@ -3,7 +3,19 @@
 //! - [`neighbours`]: which discs are near a place; the closest pair
 //! - [`clusters`]: the clusters of Figs. 3 to 6
 //! - [`energy`]: the potential energy
+//! - [`waves`]: the waves of the box and the power of the density in them
+//! - [`modes`]: density modes by shells and their growth (Fig. 2)
+//! - [`structure_factor`], [`radial_distribution`]: S(k) and g(r)
+//! - [`radii`]: radii of rings and shells; [`collapse_fit`]: the fit of Eq. 30 to them (Figs. 12 to 14)
+//! - [`estimate`]: a value with its standard error
 
 pub mod clusters;
+pub mod collapse_fit;
 pub mod energy;
+pub mod estimate;
+pub mod modes;
 pub mod neighbours;
+pub mod radial_distribution;
+pub mod radii;
+pub mod structure_factor;
+pub mod waves;
