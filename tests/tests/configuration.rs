@@ -188,26 +188,37 @@ fn motion() -> impl Strategy<Value = Motion> {
     })
 }
 
-/// On the heap: the stack of a test is short.
-fn output() -> BoxedStrategy<Output> {
+/// Of a run in a box of `side`, with radii if it starts from a patch. On the heap: the stack of a test is short.
+fn output(side: f64, is_patch: bool) -> BoxedStrategy<Output> {
     let steps = prop_oneof![Just(0), 1_u64..1000, Just(i64::MAX as u64)];
     let format = prop::sample::select(Format::WORDS.map(|(_, format)| format).to_vec());
-    (times(), times(), format, times(), steps, times())
+    let lengths = (4_u32..9, prop_oneof![Just(7.5), positive(100.0)]);
+    let thresholds = prop::collection::btree_set(1_u32..10_000, 1..5)
+        .prop_map(|set| set.into_iter().map(|number| f64::from(number) / 1000.0).collect::<Vec<_>>());
+    let intervals = prop::array::uniform5(times());
+    (prop::array::uniform3(times()), format, steps, times(), intervals, (thresholds, lengths, 1_u32..1025))
         .prop_map(
-            |(
-                observables,
-                trajectory,
-                trajectory_format,
-                snapshots,
-                checkpoint_steps,
-                checkpoint_minutes,
-            )| Output {
-                observables,
-                trajectory,
-                trajectory_format,
-                snapshots,
-                checkpoint_steps,
-                checkpoint_minutes,
+            move |(usual, trajectory_format, checkpoint_steps, checkpoint_minutes, series, settings)| {
+                let [observables, trajectory, snapshots] = usual;
+                let [minkowski, modes, radial_distribution, structure_factor, radii] = series;
+                let (minkowski_thresholds, (cells, radii_width), modes_shells) = settings;
+                Output {
+                    observables,
+                    trajectory,
+                    trajectory_format,
+                    snapshots,
+                    minkowski,
+                    minkowski_spacing: side / f64::from(cells),
+                    minkowski_thresholds,
+                    modes,
+                    modes_shells,
+                    radial_distribution,
+                    structure_factor,
+                    radii: if is_patch { radii } else { 0.0 },
+                    radii_width,
+                    checkpoint_steps,
+                    checkpoint_minutes,
+                }
             },
         )
         .boxed()
@@ -247,11 +258,19 @@ fn configuration() -> impl Strategy<Value = Configuration> {
     mesh_and_side()
         .prop_flat_map(|(mesh, side)| (Just(mesh), Just(side), start_in(side)))
         .prop_flat_map(|(mesh, side, (start, particles))| {
+            let is_patch = !matches!(start, Start::Random | Start::Lattice { .. });
             (
                 (Just(mesh), Just(side), Just(start), Just(particles)),
                 capillary_strength().prop_flat_map(|strength| (Just(strength), strengths_with(strength))),
                 (capillary_length(), any::<bool>()),
-                (motion(), times(), output(), 0_u64..1 << 63, fields_in(side), mesh_refresh(side)),
+                (
+                    motion(),
+                    times(),
+                    output(side, is_patch),
+                    0_u64..1 << 63,
+                    fields_in(side),
+                    mesh_refresh(side),
+                ),
             )
         })
         .prop_map(|((mesh, side, start, particles), (strength, strengths), (length, repulsion), rest)| {

@@ -42,6 +42,9 @@ fn neighbours(key: &Key) -> Vec<(&'static str, &'static str)> {
     if key.name == "field.trap_center" {
         all.push(("field.trap_stiffness", "0.1"));
     }
+    if key.name == "output.radii" {
+        all.extend([("start.kind", "\"disc\""), ("start.radius", "20")]);
+    }
     all.extend(match key.leaf() {
         _ if key.table() != "start" => vec![],
         "radius" => vec![("start.kind", "\"disc\""), ("start.radius", "20")],

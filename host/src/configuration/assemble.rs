@@ -1,5 +1,6 @@
 //! From checked values to a configuration: required keys, defaults and keys that exclude each other.
 
+use core::f64::consts::TAU;
 use std::path::PathBuf;
 
 use super::checks::{check, check_parameters};
@@ -9,8 +10,8 @@ use super::keys::key;
 use super::names::{LATTICES, NOISES, STARTS, StartWord, meaning};
 use super::scheme::{choose, given_scheme, settle_method};
 use super::{
-    Attraction, Configuration, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Fields, Motion, Output,
-    Physical, Start, System, Time, VERSION,
+    Attraction, Configuration, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, FEWEST_SHELLS, Fields,
+    MOST_SHELLS, Motion, Output, Physical, Start, System, Time, VERSION,
 };
 use crate::files::trajectory::Format;
 use crate::strengths::{Strengths, from_number};
@@ -40,6 +41,7 @@ pub(super) fn assemble(mut entries: Entries) -> Result<Configuration, Configurat
         time: Time { until: 0.0 },
         output: output(&entries),
     };
+    configuration.output.modes_shells = modes_shells(&entries, &configuration);
     configuration.time = time(&entries, configuration.attraction() > 0.0);
     check(&configuration, &entries)?;
     (configuration.force, configuration.mesh) = choose(&configuration, &entries)?;
@@ -236,9 +238,31 @@ fn output(entries: &Entries) -> Output {
         trajectory_format: choice(entries, "output.trajectory_format", &Format::WORDS)
             .unwrap_or(default.trajectory_format),
         snapshots: real("output.snapshots", default.snapshots),
+        minkowski: real("output.minkowski", default.minkowski),
+        minkowski_spacing: real("output.minkowski_spacing", default.minkowski_spacing),
+        minkowski_thresholds: entries
+            .numbers("output.minkowski_thresholds")
+            .map_or(default.minkowski_thresholds, <[f64]>::to_vec),
+        modes: real("output.modes", default.modes),
+        modes_shells: default.modes_shells,
+        radial_distribution: real("output.radial_distribution", default.radial_distribution),
+        structure_factor: real("output.structure_factor", default.structure_factor),
+        radii: real("output.radii", default.radii),
+        radii_width: real("output.radii_width", default.radii_width),
         checkpoint_steps: entries.integer("output.checkpoint_steps").unwrap_or(default.checkpoint_steps),
         checkpoint_minutes: real("output.checkpoint_minutes", default.checkpoint_minutes),
     }
+}
+
+/// The shells of modes: as many as given, or those that grow.
+fn modes_shells(entries: &Entries, configuration: &Configuration) -> u32 {
+    if let Some(given) = entries.integer("output.modes_shells").and_then(|shells| u32::try_from(shells).ok())
+    {
+        return given;
+    }
+    let critical = configuration.instability().and_then(|instability| instability.critical_wavenumber());
+    let below = critical.map_or(0.0, |critical| critical * configuration.system.side / TAU);
+    (below as u32).clamp(FEWEST_SHELLS, MOST_SHELLS)
 }
 
 fn count(entries: &Entries, name: &str) -> usize {

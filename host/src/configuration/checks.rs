@@ -13,7 +13,7 @@ use crate::accuracy::rounded_down;
 use super::entries::Entries;
 use super::error::ConfigurationError;
 use super::keys::{key, plain};
-use super::{Attraction, Configuration, Fields, Start};
+use super::{Attraction, Configuration, Fields, Output, Start};
 use crate::strengths::to_number;
 
 /// Largest fraction of an area that discs placed at random without overlap may cover: random
@@ -23,12 +23,18 @@ pub(super) const LARGEST_RANDOM_COVERAGE: f64 = 0.5;
 /// Latest end of a run, R0²/D: time is held in 64 bits in units of 2⁻⁴⁰ R0²/D.
 pub(super) const LATEST_TIME: f64 = 16_777_216.0;
 
+/// Cells of the density's grid along the box, for Minkowski functionals: with fewer there is no region that ends.
+const FEWEST_CELLS: f64 = 4.0;
+/// With more they take gigabytes.
+const MOST_CELLS: f64 = 8192.0;
+
 /// Refuses a configuration whose keys do not go together; `entries` knows their places.
 pub(super) fn check(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
     check_parameters(configuration, entries)?;
     check_strengths(configuration, entries)?;
     check_time_unit(configuration, entries)?;
     check_start(configuration, entries)?;
+    check_series(configuration, entries)?;
     check_end(configuration, entries)
 }
 
@@ -258,6 +264,39 @@ fn check_start(configuration: &Configuration, entries: &Entries) -> Result<(), C
             }
         }
         Start::Lattice { .. } | Start::File { .. } => {}
+    }
+    Ok(())
+}
+
+/// What the series in the output need must be there.
+fn check_series(configuration: &Configuration, entries: &Entries) -> Result<(), ConfigurationError> {
+    let Output { minkowski, minkowski_spacing, minkowski_thresholds: thresholds, radii, .. } =
+        &configuration.output;
+    if let Some([below, above]) = thresholds.array_windows().find(|[below, above]| below >= above) {
+        let found = format!("{} after {}", plain(*above), plain(*below));
+        return Err(refusal(entries, "output.minkowski_thresholds", found, "increasing numbers"));
+    }
+    let side = configuration.system.side;
+    let [finest, coarsest] = [MOST_CELLS, FEWEST_CELLS].map(|cells| side / cells);
+    if *minkowski > 0.0 && !(finest..=coarsest).contains(minkowski_spacing) {
+        return Err(refusal(
+            entries,
+            "output.minkowski_spacing",
+            plain(*minkowski_spacing),
+            format!(
+                "a spacing of {} to {}, {FEWEST_CELLS} to {MOST_CELLS} cells along the box",
+                rounded(finest),
+                rounded(coarsest)
+            ),
+        ));
+    }
+    if *radii > 0.0 && matches!(configuration.start, Start::Random | Start::Lattice { .. }) {
+        return Err(refusal(
+            entries,
+            "output.radii",
+            format!("{} with a start that fills the box", plain(*radii)),
+            "0, or start.kind = \"disc\", \"rings\" or \"file\", a patch whose radii can be followed",
+        ));
     }
     Ok(())
 }

@@ -142,6 +142,10 @@ pub const TABLES: &[Table] = &[
 const FROM_ZERO: Kind = Kind::Real { least: 0.0, closed: true, most: f64::INFINITY, infinite: false };
 /// Any finite number above 0.
 const ABOVE_ZERO: Kind = Kind::Real { least: 0.0, closed: false, most: f64::INFINITY, infinite: false };
+/// Thresholds of dense regions, in units of the density of closest packing.
+const THRESHOLD_RANGE: (f64, f64) = (0.001, 10.0);
+/// Most shells of modes: waves grow as its square, 1.6 million.
+const LARGEST_SHELL_COUNT: u64 = 1024;
 /// A number of discs.
 const COUNT: Kind = Kind::Whole { least: 1, most: LARGEST_PARTICLE_COUNT as u64 };
 /// A capillary strength in kBT.
@@ -476,6 +480,69 @@ pub const KEYS: &[Key] = &[
         unit: TIMES,
         default: "1",
         help: "Interval of the snapshots (pictures)",
+    },
+    Key {
+        name: "output.minkowski",
+        kind: FROM_ZERO,
+        unit: TIMES,
+        default: "0",
+        help: "Interval of the Minkowski functionals of dense regions in minkowski.csv",
+    },
+    Key {
+        name: "output.minkowski_spacing",
+        kind: ABOVE_ZERO,
+        unit: "R0",
+        default: "5.3",
+        help: "Spacing of the grid of the density that they are those of",
+    },
+    Key {
+        name: "output.minkowski_thresholds",
+        kind: Kind::Numbers { least: THRESHOLD_RANGE.0, most: THRESHOLD_RANGE.1 },
+        unit: "1/(2 sqrt(3)) R0^-2",
+        default: "[0.14]",
+        help: "Densities from which on a region is dense, increasing, over that of closest packing",
+    },
+    Key {
+        name: "output.modes",
+        kind: FROM_ZERO,
+        unit: TIMES,
+        default: "0",
+        help: "Interval of the density modes by shells of wavenumbers in modes.csv",
+    },
+    Key {
+        name: "output.modes_shells",
+        kind: Kind::Whole { least: 1, most: LARGEST_SHELL_COUNT },
+        unit: "",
+        default: "those below the critical wavenumber, 8 to 64",
+        help: "Number of shells, of width 2 pi/L around multiples of 2 pi/L",
+    },
+    Key {
+        name: "output.radial_distribution",
+        kind: FROM_ZERO,
+        unit: TIMES,
+        default: "0",
+        help: "Interval of the pair distribution g(r) in radial_distribution.csv",
+    },
+    Key {
+        name: "output.structure_factor",
+        kind: FROM_ZERO,
+        unit: TIMES,
+        default: "0",
+        help: "Interval of the static structure factor S(k) in structure_factor.csv",
+    },
+    Key {
+        name: "output.radii",
+        kind: FROM_ZERO,
+        unit: TIMES,
+        default: "0",
+        help: "Interval of the mean radii of the rings or shells of a patch in radii.csv",
+    },
+    Key {
+        name: "output.radii_width",
+        kind: ABOVE_ZERO,
+        unit: "R0",
+        default: "7.5",
+        help: "Width of shells of discs by their radius at the start; a start in rings goes by its rings",
     },
     Key {
         name: "output.checkpoint_steps",

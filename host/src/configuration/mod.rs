@@ -36,8 +36,8 @@ pub use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noi
 pub(crate) use names::assignment_word;
 pub use presets::{PRESETS, Preset, preset};
 pub use sections::{
-    DEFAULT_ACCURACY, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, Force, Lattice, Mesh, Motion, Output,
-    Start, Time, default_grid,
+    DEFAULT_ACCURACY, DEFAULT_DIFFUSION_TIMES, DEFAULT_JEANS_TIMES, FEWEST_SHELLS, Force, Lattice,
+    MOST_SHELLS, Mesh, Motion, Output, Start, Time, default_grid,
 };
 pub use system::{Attraction, BOLTZMANN_CONSTANT, Physical, System};
 

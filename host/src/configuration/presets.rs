@@ -128,8 +128,9 @@ pub fn preset(name: &str) -> Result<&'static Preset, ConfigurationError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::configuration::keys::KEYS;
+    use crate::configuration::keys::{KEYS, Key};
     use crate::configuration::{Force, Mesh, Place, default_grid};
+    use crate::observables::series::Series;
     use meniscus_core::parameters::Parameters;
 
     /// With the splitting given the rest is chosen fast.
@@ -155,16 +156,30 @@ mod tests {
         /// matter of the system: in which format files are, and how often it is seen to it that a run can go on.
         fn is_left(key: &str) -> bool {
             let tables = ["mesh.", "field.", "output.trajectory_format", "output.checkpoint_"];
-            let leaves = ["force.splitting", "force.cutoff", "force.mesh_refresh", ".strengths"];
+            let leaves =
+                ["force.splitting", "force.cutoff", "force.mesh_refresh", ".strengths", ".modes_shells"];
             tables.iter().any(|table| key.starts_with(table)) || leaves.iter().any(|leaf| key.ends_with(leaf))
+        }
+        fn is_of_series(key: &str) -> bool {
+            let leaf = key.strip_prefix("output.");
+            leaf.is_some_and(|leaf| Series::ALL.iter().any(|series| leaf.starts_with(series.name())))
         }
         for preset in PRESETS {
             let given = Entries::read(preset.name, preset.text, &[]).unwrap();
             let written = quickly(preset, &[]).to_toml();
             let complete = Entries::read(preset.name, &written, &[]).unwrap();
-            for key in KEYS {
+            let output = quickly(preset, &[]).output;
+            for key in KEYS.iter().filter(|key| !is_of_series(key.name)) {
                 let expected = complete.has(key.name) && !is_left(key.name);
                 assert_eq!(given.has(key.name), expected, "{} in {}", key.name, preset.name);
+            }
+            // A series with its settings is given where the figure needs it.
+            for series in Series::ALL {
+                let own = |key: &&Key| key.leaf().starts_with(series.name()) && !is_left(key.name);
+                for key in KEYS.iter().filter(|key| key.table() == "output").filter(own) {
+                    let expected = output.interval(series) > 0.0;
+                    assert_eq!(given.has(key.name), expected, "{} in {}", key.name, preset.name);
+                }
             }
             assert!(matches!(given.place("seed"), Place::File { .. }));
         }

@@ -15,6 +15,7 @@ use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
 
 use super::names::{ASSIGNMENTS, method_word, word};
 use crate::files::trajectory::Format;
+use crate::observables::series::Series;
 
 /// Table `force`: how the capillary force is summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -163,8 +164,29 @@ pub const DEFAULT_JEANS_TIMES: f64 = 5.0;
 /// Default of `time.until` without attraction, R0²/D.
 pub const DEFAULT_DIFFUSION_TIMES: f64 = 10.0;
 
-/// Table `output`: intervals in the unit of `time.until` but for those of checkpoints; 0 for none.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Shells of modes unless a configuration says otherwise: at least so many.
+pub const FEWEST_SHELLS: u32 = 8;
+/// Shells of modes unless a configuration says otherwise: at most so many, of some 6500 waves.
+pub const MOST_SHELLS: u32 = 64;
+
+impl Output {
+    /// Interval of a series, in the unit of `time.until`; 0 for none.
+    #[must_use]
+    pub const fn interval(&self, series: Series) -> f64 {
+        match series {
+            Series::Observables => self.observables,
+            Series::Minkowski => self.minkowski,
+            Series::Modes => self.modes,
+            Series::RadialDistribution => self.radial_distribution,
+            Series::StructureFactor => self.structure_factor,
+            Series::Radii => self.radii,
+        }
+    }
+}
+
+/// Table `output`: intervals in the unit of `time.until` but for those of checkpoints; 0 for none. What the series
+/// are is said in [`observables::series`](crate::observables::series).
+#[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// Interval of the rows of `observables.csv`.
     pub observables: f64,
@@ -174,6 +196,26 @@ pub struct Output {
     pub trajectory_format: Format,
     /// Interval of the snapshots (pictures).
     pub snapshots: f64,
+    /// Interval of Minkowski functionals in `minkowski.csv`.
+    pub minkowski: f64,
+    /// Spacing of the grid of the density that they are those of, R0; rounded so that it divides the box.
+    pub minkowski_spacing: f64,
+    /// Densities from which on a region is dense, in units of the density ρ_m = 1/(2√3) R0⁻² of closest packing;
+    /// increasing.
+    pub minkowski_thresholds: Vec<f64>,
+    /// Interval of the density modes in `modes.csv`.
+    pub modes: f64,
+    /// Number of shells of wavenumbers, of width 2π/L around 2π/L, 4π/L, …. Left out of a file, those below the
+    /// critical wavenumber, [`FEWEST_SHELLS`] to [`MOST_SHELLS`] of them.
+    pub modes_shells: u32,
+    /// Interval of g(r) in `radial_distribution.csv`.
+    pub radial_distribution: f64,
+    /// Interval of S(k) in `structure_factor.csv`.
+    pub structure_factor: f64,
+    /// Interval of the radii of rings or shells in `radii.csv`.
+    pub radii: f64,
+    /// Width of the shells by initial radius, R0; a start in rings has its rings instead.
+    pub radii_width: f64,
     /// Steps between checkpoints.
     pub checkpoint_steps: u64,
     /// Minutes of wall time between checkpoints.
@@ -187,6 +229,15 @@ impl Default for Output {
             trajectory: 0.1,
             trajectory_format: Format::Gsd,
             snapshots: 1.0,
+            minkowski: 0.0,
+            minkowski_spacing: 5.3,
+            minkowski_thresholds: vec![0.14],
+            modes: 0.0,
+            modes_shells: FEWEST_SHELLS,
+            radial_distribution: 0.0,
+            structure_factor: 0.0,
+            radii: 0.0,
+            radii_width: 7.5,
             checkpoint_steps: 0,
             checkpoint_minutes: 10.0,
         }

@@ -61,7 +61,9 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
         configuration;
     match (name, physical, &configuration.strengths) {
         ("system.strengths", None, Strengths::Pattern(pattern))
-        | ("physical.strengths", Some(_), Strengths::Pattern(pattern)) => return Some(numbers(pattern)),
+        | ("physical.strengths", Some(_), Strengths::Pattern(pattern)) => {
+            return Some(reals(pattern.iter().copied().map(to_number)));
+        }
         _ => {}
     }
     if let Some(leaf) = name.strip_prefix("system.") {
@@ -90,9 +92,9 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
         "mesh.assignment" => quoted(word(&ASSIGNMENTS, &mesh.assignment)),
         "mesh.influence" => quoted(word(&INFLUENCES, &mesh.influence)),
         "mesh.gradient" => quoted(word(&GRADIENTS, &mesh.gradient)),
-        "field.uniform_force" => pair(fields.uniform_force),
+        "field.uniform_force" => reals(fields.uniform_force),
         "field.trap_stiffness" => real(fields.trap_stiffness),
-        "field.trap_center" => pair(fields.trap_center),
+        "field.trap_center" => reals(fields.trap_center),
         "motion.noise" => quoted(word(&NOISES, &motion.noise)),
         "motion.max_step" => real(motion.max_step),
         "motion.max_displacement" => real(motion.max_displacement),
@@ -101,6 +103,15 @@ fn value(configuration: &Configuration, name: &str) -> Option<String> {
         "output.trajectory" => real(output.trajectory),
         "output.trajectory_format" => quoted(word(&Format::WORDS, &output.trajectory_format)),
         "output.snapshots" => real(output.snapshots),
+        "output.minkowski" => real(output.minkowski),
+        "output.minkowski_spacing" => real(output.minkowski_spacing),
+        "output.minkowski_thresholds" => reals(output.minkowski_thresholds.iter().copied()),
+        "output.modes" => real(output.modes),
+        "output.modes_shells" => output.modes_shells.to_string(),
+        "output.radial_distribution" => real(output.radial_distribution),
+        "output.structure_factor" => real(output.structure_factor),
+        "output.radii" => real(output.radii),
+        "output.radii_width" => real(output.radii_width),
         "output.checkpoint_steps" => output.checkpoint_steps.to_string(),
         "output.checkpoint_minutes" => real(output.checkpoint_minutes),
         _ => return None,
@@ -163,13 +174,9 @@ fn real(value: f64) -> String {
     format!("{value:?}")
 }
 
-fn numbers(strengths: &[i32]) -> String {
-    let numbers: Vec<String> = strengths.iter().map(|&strength| real(to_number(strength))).collect();
+fn reals(values: impl IntoIterator<Item = f64>) -> String {
+    let numbers: Vec<String> = values.into_iter().map(real).collect();
     format!("[{}]", numbers.join(", "))
-}
-
-fn pair([x, y]: [f64; 2]) -> String {
-    format!("[{}, {}]", real(x), real(y))
 }
 
 fn quoted(text: &str) -> String {

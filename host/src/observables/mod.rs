@@ -8,6 +8,7 @@
 //! - [`structure_factor`], [`radial_distribution`]: S(k) and g(r)
 //! - [`radii`]: radii of rings and shells; [`collapse_fit`]: the fit of Eq. 30 to them (Figs. 12 to 14)
 //! - [`estimate`]: a value with its standard error
+//! - [`series`]: tables of observables that a run writes at their own cadence
 
 pub mod clusters;
 pub mod collapse_fit;
@@ -17,5 +18,6 @@ pub mod modes;
 pub mod neighbours;
 pub mod radial_distribution;
 pub mod radii;
+pub mod series;
 pub mod structure_factor;
 pub mod waves;

@@ -70,7 +70,8 @@ impl Run {
         }
         let golden = read_golden(&golden_request, &simulation.configuration, progress.golden.records)?;
 
-        let (output, scale) = (simulation.configuration.output, simulation.configuration.time_scale());
+        let (output, scale) =
+            (simulation.configuration.output.clone(), simulation.configuration.time_scale());
         let schedule = |interval: f64, next| Schedule::resumed(interval * scale, next);
         let run = Self {
             directory: Directory::resume(directory, lock, &simulation, &progress)?,
