@@ -192,7 +192,7 @@ fn motion() -> impl Strategy<Value = Motion> {
 fn output(side: f64, is_patch: bool) -> BoxedStrategy<Output> {
     let steps = prop_oneof![Just(0), 1_u64..1000, Just(i64::MAX as u64)];
     let format = prop::sample::select(Format::WORDS.map(|(_, format)| format).to_vec());
-    let lengths = (4_u32..9, prop_oneof![Just(7.5), positive(100.0)]);
+    let lengths = (5_u32..9, prop_oneof![Just(7.5), positive(100.0)]);
     let thresholds = prop::collection::btree_set(1_u32..10_000, 1..5)
         .prop_map(|set| set.into_iter().map(|number| f64::from(number) / 1000.0).collect::<Vec<_>>());
     let intervals = prop::array::uniform5(times());
