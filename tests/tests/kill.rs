@@ -135,26 +135,37 @@ fn start_and_kill_never(folder: &Path, arguments: &[&str]) -> bool {
     command.status().unwrap().success()
 }
 
-/// With `MENISCUS_LONG_TESTS=1`: 200 kills, on the disk, and 50 with each further format of trajectories.
+/// Kills runs with trajectories of `format`: a few, or with `MENISCUS_LONG_TESTS=1` more, on the disk.
+fn kill(format: &str, few: usize, many: usize) {
+    let setting = format!("output.trajectory_format={format}");
+    let pictures = ["--until", "0.3", "--set", "output.snapshots=0.05"];
+    let (folder, patience, pictures, kills) = if long_tests() {
+        (tempfile::tempdir().unwrap(), 400, &pictures[..], many)
+    } else {
+        (fast_folder(), 150, &[][..], few)
+    };
+    let more = [pictures, &["--set", &setting]].concat();
+    let table = campaign(folder.path(), &more, kills, Duration::from_millis(patience));
+    eprintln!("{format}: {table:?}");
+    assert_eq!(table.mismatches, 0);
+    assert!(table.kills >= kills && table.resumes > 0);
+}
+
 #[test]
 fn a_run_that_is_killed_and_resumed_leaves_what_a_run_leaves() {
-    let formats: &[(&str, usize)] = if long_tests() {
-        &[("gsd", 200), ("xyz", 50), ("lammps", 50), ("npz", 50)]
-    } else {
-        &[("gsd", 8), ("npz", 4)]
-    };
-    for &(format, kills) in formats {
-        let format = format!("output.trajectory_format={format}");
-        let pictures = ["--until", "0.3", "--set", "output.snapshots=0.05"];
-        let (folder, patience, pictures) = if long_tests() {
-            (tempfile::tempdir().unwrap(), 400, &pictures[..])
-        } else {
-            (fast_folder(), 150, &[][..])
-        };
-        let more = [pictures, &["--set", &format]].concat();
-        let table = campaign(folder.path(), &more, kills, Duration::from_millis(patience));
-        eprintln!("{format}: {table:?}");
-        assert_eq!(table.mismatches, 0);
-        assert!(table.kills >= kills && table.resumes > 0);
+    kill("gsd", 8, 200);
+}
+
+#[test]
+fn so_does_one_with_a_numpy_archive() {
+    kill("npz", 4, 50);
+}
+
+#[test]
+fn so_do_those_with_text() {
+    for format in ["xyz", "lammps"] {
+        if long_tests() {
+            kill(format, 0, 50);
+        }
     }
 }
