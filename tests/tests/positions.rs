@@ -198,6 +198,20 @@ fn a_gigabyte_of_nothing_is_refused_with_little_memory() {
     refused_with(MEMORY_OF_A_STATE, &program, "counted.state", "followed by other bytes");
 }
 
+/// The header of a GSD file whose index and whose list of names are as long as they may be, with what follows it for
+/// both.
+fn gsd_header(size: usize) -> Vec<u8> {
+    let mut header = Vec::new();
+    for number in [0x65df_65df_65df_65df, 256, (size as u64 - 256) / 32, 256, 65536] {
+        header.extend(u64::to_ne_bytes(number));
+    }
+    header.extend([0, 2 << 16].map(u32::to_ne_bytes).concat());
+    header.resize(112, 0);
+    header.extend(b"hoomd");
+    header.resize(256, 0);
+    header
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn junk_that_has_to_be_read_to_its_end_takes_little_memory() {
@@ -207,6 +221,10 @@ fn junk_that_has_to_be_read_to_its_end_takes_little_memory() {
     for (name, head, piece, part) in [
         ("junk.csv", &b""[..], &junk[..], "no text"),
         ("junk.xyz", b"", &junk, "no text"),
+        ("junk.lammpstrj", b"", &junk, "no text"),
+        ("junk.npz", b"", &junk, "Zip"),
+        ("junk.gsd", b"", &junk, "bytes of another kind"),
+        ("index.gsd", &gsd_header(size), &junk, "a chunk that is not in the file"),
         (
             "comments.csv",
             b"",
