@@ -222,3 +222,14 @@ pub const CENTRE_DRIFT: f64 = 2e-8;
 /// Standard error of the density of attracting discs in a bin, relative, that the test of it must reach for it to say
 /// anything: attraction makes discs in contact 1.7 times as frequent.
 pub const ATTRACTED_RESOLUTION: f64 = 0.03;
+
+// The observed density and its Minkowski functionals: tests/density.rs, tests/minkowski.rs.
+
+/// A disc's share of a node of the observed density, in discs, against the definition in binary64: two weights of unit
+/// 2⁻⁴⁰, each off by half a unit or, what is left for the nearest node, a whole one; and the definition's own rounding, with
+/// distances of up to 40 cells off by 2⁻⁴⁷ cells.
+pub const CLOUD_SHARE: f64 = 2.0 / 1_099_511_627_776.0;
+
+/// The sum of the observed density over all nodes, relative: integers that are exact, converted and added in binary64, up to
+/// some thousand roundings of 2⁻⁵³.
+pub const DENSITY_TOTAL: f64 = 1e-13;

@@ -9,9 +9,11 @@
 //! - [`radii`]: radii of rings and shells; [`collapse_fit`]: the fit of Eq. 30 to them (Figs. 12 to 14)
 //! - [`estimate`]: a value with its standard error
 //! - [`series`]: tables of observables that a run writes at their own cadence
+//! - [`density`]: the number density on a grid
 
 pub mod clusters;
 pub mod collapse_fit;
+pub mod density;
 pub mod energy;
 pub mod estimate;
 pub mod modes;
