@@ -233,3 +233,11 @@ pub const CLOUD_SHARE: f64 = 2.0 / 1_099_511_627_776.0;
 /// The sum of the observed density over all nodes, relative: integers that are exact, converted and added in binary64, up to
 /// some thousand roundings of 2⁻⁵³.
 pub const DENSITY_TOTAL: f64 = 1e-13;
+
+/// Areas and lengths by contours against exact ones, relative to 1 plus their modulus: some hundred squares, each with some ten
+/// roundings of 2⁻⁵³.
+pub const POLYGON_ROUNDING: f64 = 1e-13;
+
+/// Error of a disc's area and length by contours over that at half the spacing: 4 at second order. Where nodes lie on the circle
+/// differs from grid to grid.
+pub const QUARTERED: Within = Within(3.3, 4.8);

@@ -10,12 +10,14 @@
 //! - [`estimate`]: a value with its standard error
 //! - [`series`]: tables of observables that a run writes at their own cadence
 //! - [`density`]: the number density on a grid
+//! - [`minkowski`]: area, boundary and Euler characteristic of where it is high (Figs. 7 to 11)
 
 pub mod clusters;
 pub mod collapse_fit;
 pub mod density;
 pub mod energy;
 pub mod estimate;
+pub mod minkowski;
 pub mod modes;
 pub mod neighbours;
 pub mod radial_distribution;
