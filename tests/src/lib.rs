@@ -10,7 +10,6 @@ pub mod field;
 pub mod figures;
 pub mod fits;
 pub mod fuzzing;
-pub mod modes;
 pub mod program;
 pub mod reference;
 pub mod schemes;

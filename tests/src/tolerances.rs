@@ -192,6 +192,12 @@ pub const GROWTH_SIGMAS: f64 = 3.0;
 /// Standard error of the growth rate, relative, that a test of it must reach for it to say anything.
 pub const GROWTH_RESOLUTION: f64 = 0.025;
 
+// Density modes: tests/modes.rs.
+
+/// |ρ̂_k| per disc against the sum that defines it. A phase factor of l ≤ 300 is a product of l rounded ones, of which
+/// each is off by 2π·2⁻⁵³: 2e-13 at most, and there are two; most waves are far better.
+pub const DENSITY_MODE: f64 = 4e-13;
+
 // Trajectories against binary64: tests/reference_run.rs.
 
 /// Distance between repelling discs and their reference after 20 steps, rms over rms distance covered: the rounding

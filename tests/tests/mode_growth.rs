@@ -6,13 +6,15 @@ use core::f64::consts::TAU;
 
 use meniscus::configuration::Configuration;
 use meniscus::engine::Engine;
+use meniscus::observables::estimate::Estimate;
+use meniscus::observables::modes::growth::{Growth, growth_ratio};
+use meniscus::observables::waves::{Waves, order};
 use meniscus::simulation::Simulation;
 use meniscus_core::dynamics::Clock;
 use meniscus_core::parameters::Parameters;
 use meniscus_core::units::time_from_units;
 use meniscus_tests::figures::assert_within;
 use meniscus_tests::long_tests;
-use meniscus_tests::modes::{Growth, growth_ratio, order, power, waves};
 use meniscus_tests::schemes::{BOTH, PAPER, SPLIT, Scheme};
 use meniscus_tests::tolerances::{GROWTH_OF_LONG_WAVES, GROWTH_RESOLUTION, GROWTH_SIGMAS, Within};
 
@@ -53,23 +55,20 @@ fn growth(scheme: Scheme, resolution: Resolution, seed: u64, until: f64) -> Vec<
     let configuration = Configuration::from_preset("fig-2", &overrides).unwrap();
     let theory = configuration.instability().unwrap();
     let unit = TAU / configuration.system.side;
-    let waves = waves(LONG * theory.jeans_wavenumber / unit);
+    let waves = Waves::below(LONG * theory.jeans_wavenumber / unit);
     let mut simulation = Simulation::new(configuration).unwrap();
     let Resolution { grid, max_step, repulsion } = resolution;
     let parameters = Parameters { grid, max_step, repulsion, ..simulation.configuration.parameters() };
     let start = simulation.engine.positions();
     simulation.engine = Engine::new(&scheme.of(parameters), Clock::START, &start).unwrap();
-    let powers = |simulation: &Simulation| -> Vec<f64> {
-        let discs = simulation.engine.positions();
-        waves.iter().map(|&wave| power(&discs, wave)).collect()
-    };
-    let initial = powers(&simulation);
+    let initial = waves.powers(&start);
     while simulation.time_over_jeans().unwrap() < until {
         simulation.engine.step().unwrap();
     }
     let time = time_from_units(simulation.engine.clock().time);
     let count = simulation.engine.count() as f64;
-    let modes = waves.iter().zip(initial.into_iter().zip(powers(&simulation)));
+    let later = waves.powers(&simulation.engine.positions());
+    let modes = waves.vectors().iter().zip(initial.into_iter().zip(later));
     modes
         .map(|(&wave, (initial_power, later_power))| {
             let wavenumber = unit * order(wave);
@@ -88,7 +87,7 @@ fn within(modes: &[Mode], range: core::ops::Range<f64>) -> Vec<Growth> {
 
 /// Fails unless the growth rate is that of Eq. 10 and the statistics suffice to tell.
 fn assert_growth_of_theory(modes: &[Growth], resolution: f64, what: &str) {
-    let (ratio, error) = growth_ratio(modes);
+    let Estimate { value: ratio, error } = growth_ratio(modes).unwrap();
     let accepted = GROWTH_SIGMAS * error + GROWTH_OF_LONG_WAVES;
     assert_within(ratio, Within(1.0 - accepted, 1.0 + accepted), &format!("growth rate over Eq. 10, {what}"));
     assert_within(error, Within(0.0, resolution), &format!("its standard error, {what}"));

@@ -6,18 +6,20 @@ use core::f64::consts::PI;
 
 use meniscus::configuration::Configuration;
 use meniscus::engine::Engine;
+use meniscus::observables::collapse_fit::{Conditions, fit};
+use meniscus::observables::radii::{GroupRadius, Groups};
 use meniscus::simulation::Simulation;
 use meniscus_core::dynamics::Clock;
 use meniscus_core::parameters::Parameters;
-use meniscus_core::torus::{Fraction, Position, Torus, minimum_image};
 use meniscus_tests::figures::assert_within;
-use meniscus_tests::fits::delay_of_collapse;
 use meniscus_tests::long_tests;
 use meniscus_tests::schemes::{BOTH, PAPER, SPLIT, Scheme};
 use meniscus_tests::tolerances::{COARSE_DELAY, DELAY, NEWTONIAN_RADIUS, SPLIT_NEWTONIAN_RADIUS, Within};
 
-/// Rings of the patch, each of 10 discs times its number.
+/// Rings of the patch.
 const RINGS: usize = 9;
+/// Discs of a ring over its number.
+const PER_RING: u32 = 10;
 /// Distance between rings, R0.
 const SPACING: f64 = 19.29;
 
@@ -50,21 +52,8 @@ const SOON_SET_UP: &str = "force.method=pm";
 struct Sample {
     /// t/T
     time: f64,
-    /// Of rings 1, 2, …, R0.
-    radii: [f64; RINGS],
-}
-
-/// Mean distance from the middle of the box of the discs of each ring.
-fn radii(torus: &Torus, discs: &[Position]) -> [f64; RINGS] {
-    let centre = Fraction::from_bits(1 << 31);
-    let along = |coordinate| torus.length(minimum_image(coordinate, centre));
-    let distances: Vec<f64> = discs.iter().map(|disc| libm::hypot(along(disc.x), along(disc.y))).collect();
-    core::array::from_fn(|ring| {
-        // The central disc and the rings within come first.
-        let first = 1 + 5 * ring * (ring + 1);
-        let count = 10 * (ring + 1);
-        distances[first..first + count].iter().sum::<f64>() / count as f64
-    })
+    /// Of the disc in the middle and the rings.
+    radii: Vec<GroupRadius>,
 }
 
 /// The collapse of Fig. 12 with `overrides` up to `until` (t/T), a sample every 0.01 T.
@@ -77,6 +66,7 @@ fn collapse(scheme: Scheme, resolution: Resolution, overrides: &[&str], until: f
     let parameters = Parameters { grid, max_step, ..simulation.configuration.parameters() };
     let start = simulation.engine.positions();
     simulation.engine = Engine::new(&scheme.of(parameters), Clock::START, &start).unwrap();
+    let groups = Groups::rings(RINGS as u32, PER_RING, SPACING);
     let mut samples = Vec::new();
     let mut next = 0.0;
     loop {
@@ -85,7 +75,10 @@ fn collapse(scheme: Scheme, resolution: Resolution, overrides: &[&str], until: f
             return samples;
         }
         if time >= next {
-            samples.push(Sample { time, radii: radii(&simulation.torus, &simulation.engine.positions()) });
+            samples.push(Sample {
+                time,
+                radii: groups.radii(&simulation.torus, &simulation.engine.positions()),
+            });
             next += 0.01;
         }
         simulation.engine.step().unwrap();
@@ -97,8 +90,13 @@ fn delays(scheme: Scheme, resolution: Resolution) -> [f64; 3] {
     let samples = collapse(scheme, resolution, &[], 0.9);
     FIGURE_12.map(|(ring, _, final_radius)| {
         let radii: Vec<(f64, f64)> =
-            samples.iter().map(|sample| (sample.time, sample.radii[ring - 1])).collect();
-        delay_of_collapse(&radii, SPACING * ring as f64, final_radius)
+            samples.iter().map(|sample| (sample.time, sample.radii[ring].radius)).collect();
+        let conditions = Conditions {
+            initial_radius: Some(SPACING * ring as f64),
+            final_radius: Some(final_radius),
+            ..Conditions::default()
+        };
+        fit(&radii, &conditions).unwrap().delay.value
     })
 }
 
@@ -160,7 +158,7 @@ fn assert_collapse_of_the_closed_form(scheme: Scheme, accepted: Within) {
         let radius = |time: f64| {
             (balance - (balance - initial * initial) * libm::exp(rate * time * jeans_time)).sqrt()
         };
-        let error = |sample: &Sample| (sample.radii[ring - 1] / radius(sample.time) - 1.0).abs();
+        let error = |sample: &Sample| (sample.radii[ring].radius / radius(sample.time) - 1.0).abs();
         let largest = samples.iter().map(error).fold(0.0, f64::max);
         assert_within(
             largest,

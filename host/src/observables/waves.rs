@@ -242,6 +242,12 @@ impl Table {
     }
 }
 
+fn add_products(sums: &mut [f64; LANES], first: &[f64; LANES], second: &[f64; LANES]) {
+    for (sum, (first, second)) in sums.iter_mut().zip(first.iter().zip(second)) {
+        *sum += first * second;
+    }
+}
+
 /// Sums over discs of the four products of the parts of two phase factors, from which ρ̂ of (l, m) and of (l, −m) follow.
 #[derive(Clone, Copy, Default)]
 struct Sums([f64; 4]);
@@ -249,15 +255,12 @@ struct Sums([f64; 4]);
 impl Sums {
     fn add(&mut self, x: &Phases, y: &Phases) {
         let mut lanes = [[0.0; LANES]; 4];
-        for block in 0..BLOCK / LANES {
-            for lane in 0..LANES {
-                let (a, b) = (x.cosine[block][lane], x.sine[block][lane]);
-                let (c, d) = (y.cosine[block][lane], y.sine[block][lane]);
-                lanes[0][lane] += a * c;
-                lanes[1][lane] += b * d;
-                lanes[2][lane] += a * d;
-                lanes[3][lane] += b * c;
-            }
+        let [both_cosines, both_sines, cosine_sine, sine_cosine] = &mut lanes;
+        for ((a, b), (c, d)) in (x.cosine.iter().zip(&x.sine)).zip(y.cosine.iter().zip(&y.sine)) {
+            add_products(both_cosines, a, c);
+            add_products(both_sines, b, d);
+            add_products(cosine_sine, a, d);
+            add_products(sine_cosine, b, c);
         }
         for (sum, [first, second, third, fourth]) in self.0.iter_mut().zip(lanes) {
             *sum += (first + second) + (third + fourth);
