@@ -24,6 +24,14 @@
 //! assert_eq!(Series::of_name("radii"), Some(Series::Radii));
 //! ```
 
+mod observer;
+mod rows;
+mod settings;
+
+pub use observer::{Observer, SeriesError};
+pub use rows::Moment;
+pub use settings::{Grouping, Settings};
+
 /// The columns that every series begins with: steps made, time in R0²/D, and time in Jeans' times, empty where there is
 /// none.
 pub const HEAD_COLUMNS: [&str; 3] = ["step", "time", "time_over_jeans"];
@@ -123,6 +131,12 @@ impl Series {
             Self::StructureFactor => &["structure_factor"],
             Self::Radii => &["radius", "spread"],
         }
+    }
+
+    /// Whether its rows compare a state with where the discs were at time zero.
+    #[must_use]
+    pub const fn compares_with_start(self) -> bool {
+        matches!(self, Self::Modes | Self::Radii)
     }
 
     /// The first line of its file, without the end of the line.
