@@ -119,6 +119,14 @@ impl Simulation {
         Ok(Self { configuration, torus, engine })
     }
 
+    /// The present state.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let Clock { step, time } = self.engine.clock();
+        let (positions, strengths) = (self.engine.positions(), Some(self.engine.strengths()));
+        State { step, time, positions, strengths, held: self.engine.held() }
+    }
+
     /// The end of the run, unit 2⁻⁴⁰ R0²/D, rounded up.
     #[must_use]
     pub fn end(&self) -> u64 {

@@ -14,12 +14,15 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// 60 discs, with a checkpoint at every second step, a row at nearly every one and a frame now and then.
+/// 60 discs, with a checkpoint at every second step, a row at nearly every one, and a frame and rows of
+/// every other series now and then.
 const CONFIGURATION: &str = "version = 1\nseed = 11\n\
     [system]\nparticles = 60\nbox = 48\ncapillary_strength = 10\ncapillary_length = 30\n\
     [force]\nmethod = \"pm\"\nmesh_refresh = 0.05\n[mesh]\ngrid = 32\n\
     [time]\nuntil = 0.1\n\
-    [output]\nobservables = 0.002\ntrajectory = 0.005\nsnapshots = 0\ncheckpoint_steps = 2\n";
+    [start]\nkind = \"disc\"\nradius = 20\n\
+    [output]\nminkowski = 0.003\nmodes = 0.01\nmodes_shells = 2\nradial_distribution = 0.02\nstructure_factor = 0.05\n\
+    radii = 0.004\nobservables = 0.002\ntrajectory = 0.005\nsnapshots = 0\ncheckpoint_steps = 2\n";
 
 /// What became of the runs.
 #[derive(Debug, Default)]
@@ -55,8 +58,8 @@ impl Table {
             .flatten()
             .find(|entry| entry.file_name().to_string_lossy().starts_with("trajectory."));
         let frames = trajectory.unwrap().metadata().unwrap().len();
-        let [known_rows, known_frames] =
-            ["observables", "trajectory"].map(|file| progress[file]["bytes"].as_u64().unwrap());
+        let [known_rows, known_frames] = [&progress["tables"]["observables"], &progress["trajectory"]]
+            .map(|file| file["bytes"].as_u64().unwrap());
         assert!(table.len() as u64 >= known_rows && frames >= known_frames, "a checkpoint knows too much");
         self.ahead += usize::from(table.len() as u64 > known_rows || frames > known_frames);
         self.torn += usize::from(!table.ends_with(b"\n"));

@@ -17,6 +17,18 @@ const SMALL: &str = "version = 1\nseed = 3\n\
     [force]\nmethod = \"pm\"\n[mesh]\ngrid = 16\n\
     [output]\nobservables = 0.01\ntrajectory = 0.023\nsnapshots = 0\ncheckpoint_minutes = 0\n";
 
+/// Every series, of a patch, each at an interval of its own.
+const ALL_SERIES: [&str; 8] = [
+    "start.kind=disc",
+    "start.radius=11",
+    "output.minkowski=0.003",
+    "output.minkowski_thresholds=[0.1, 0.2]",
+    "output.modes=0.007",
+    "output.radial_distribution=0.02",
+    "output.structure_factor=0.03",
+    "output.radii=0.004",
+];
+
 const HOST: Machinery = Machinery { kind: Kind::Host, threads: 1 };
 const THREADS: Machinery = Machinery { kind: Kind::Host, threads: 3 };
 const CORE: Machinery = Machinery { kind: Kind::Core, threads: 1 };
@@ -108,6 +120,11 @@ fn held_mesh_forces_survive_a_restart_at_any_step() {
 #[test]
 fn strengths_survive_a_restart_at_any_step() {
     restart_at_every_step(&["system.strengths=[1, -1, 0.5]"]);
+}
+
+#[test]
+fn every_series_survives_a_restart_at_any_step() {
+    restart_at_every_step(&ALL_SERIES);
 }
 
 #[test]

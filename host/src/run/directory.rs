@@ -1,35 +1,38 @@
 //! A run's directory: which files there are and what is in them.
 
-use super::growing::{Growing, Place};
+use super::growing::Place;
 use super::lock::{self, Lock};
 use super::manifest::{self, Ending, Manifest};
 use super::progress::{Frames, Progress, Table};
-use super::row::Row;
+use super::start::StartingState;
+use super::tables::{Tables, compare_with_start};
 use super::{Outcome, RunError};
 use crate::checkpoint::{Checkpoint, store};
 use crate::configuration::Configuration;
 use crate::files::trajectory::{Extent, Format, Frame, Trajectory};
-use crate::files::{FileError, atomic, atomic::write_atomically, csv, state::State};
+use crate::files::{FileError, atomic, atomic::write_atomically, csv};
 use crate::observables::clusters::Clusters;
+use crate::observables::series::Moment;
 use crate::simulation::Simulation;
 use crate::snapshot;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_core::units::time_from_units;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Name of the configuration as run.
 pub(super) const CONFIGURATION: &str = "config.toml";
-/// Name of the table of observables.
-const OBSERVABLES: &str = "observables.csv";
 
 /// An open run directory.
 #[derive(Debug)]
 pub(super) struct Directory {
     path: PathBuf,
     torus: Torus,
-    observables: Growing,
+    tables: Tables,
+    /// Where the discs were at the start, if a table compares with it.
+    start: Option<StartingState>,
     trajectory: Trajectory,
     trajectory_place: Place,
     manifest: Manifest,
@@ -68,15 +71,16 @@ impl Directory {
         Self::refuse_used(path)?;
         let configuration = &simulation.configuration;
         write_atomically(&path.join(CONFIGURATION), configuration.to_toml().as_bytes())?;
-        let mut observables = Growing::create(&path.join(OBSERVABLES))?;
-        observables.append(Row::HEADER)?;
+        let start =
+            compare_with_start(simulation).then(|| StartingState::write(path, simulation)).transpose()?;
         let (format, trajectory_path) = trajectory(path, configuration);
         Ok(Self {
             trajectory: Trajectory::create(&trajectory_path, format, &simulation.torus)?,
             trajectory_place: Place::of(&trajectory_path)?,
             path: path.to_owned(),
             torus: simulation.torus,
-            observables,
+            tables: Tables::create(path, simulation, initial(&start))?,
+            start,
             manifest: Manifest::begin(path, simulation.engine.clock().step),
             _lock: lock,
         })
@@ -92,21 +96,19 @@ impl Directory {
     ) -> Result<Self, RunError> {
         let configuration = &simulation.configuration;
         let (format, trajectory_path) = trajectory(path, configuration);
-        let observables_path = path.join(OBSERVABLES);
-        for path in [&observables_path, &trajectory_path] {
-            if !path.exists() {
-                return Err(RunError::Gone(path.clone()));
-            }
-        }
         // Nothing is dropped before everything has been looked at; a trajectory looks before it drops.
-        let mut observables = Growing::open(&observables_path, progress.observables.bytes)?;
+        let start = progress.start.as_ref().map(|digest| StartingState::read(path, digest)).transpose()?;
+        let mut tables = Tables::open(path, simulation, initial(&start), &progress.tables)?;
+        if !trajectory_path.exists() {
+            return Err(RunError::Gone(trajectory_path));
+        }
         let extent = progress.trajectory.extent();
         let trajectory = Trajectory::resume(&trajectory_path, format, &simulation.torus, extent);
         let trajectory = trajectory.map_err(|error| match error {
             FileError::Extent { .. } => RunError::Lost(error),
             other => other.into(),
         })?;
-        observables.cut()?;
+        tables.cut()?;
         remove_leftovers(path, progress.snapshots.next)?;
         let text = configuration.to_toml();
         let written = fs::read(path.join(CONFIGURATION)).is_ok_and(|found| found == text.as_bytes());
@@ -118,7 +120,8 @@ impl Directory {
             trajectory_place: Place::of(&trajectory_path)?,
             path: path.to_owned(),
             torus: simulation.torus,
-            observables,
+            tables,
+            start,
             manifest: Manifest::begin(path, simulation.engine.clock().step),
             _lock: lock,
         })
@@ -128,8 +131,19 @@ impl Directory {
         &self.path
     }
 
-    pub(super) fn write_row(&mut self, row: &Row, clusters: &Clusters) -> Result<(), RunError> {
-        self.observables.append(&row.format(clusters))
+    /// Notes which tables are due at time `now` (unit 2⁻⁴⁰ R0²/D): whether `observables.csv` is, and whether any is.
+    pub(super) fn note_due(&mut self, now: u64) -> [bool; 2] {
+        self.tables.note_due(now)
+    }
+
+    /// Writes the rows of the tables that are due.
+    pub(super) fn write_rows(&mut self, moment: &Moment, frame: &Frame<'_>) -> Result<(), RunError> {
+        self.tables.write(moment, frame)
+    }
+
+    /// SHA-256 of the state at the start, if a table compares with it.
+    pub(super) fn start_digest(&self) -> Option<String> {
+        self.start.as_ref().map(|start| start.digest.clone())
     }
 
     pub(super) fn write_frame(&mut self, frame: &Frame<'_>) -> Result<(), RunError> {
@@ -153,14 +167,12 @@ impl Directory {
         Ok(())
     }
 
-    /// Waits until the files that grow are on the disk; tells how far they have come, `next` rows and frames being due.
-    pub(super) fn sync(&mut self, next: [u64; 2]) -> Result<(Table, Frames), RunError> {
+    /// Waits until the files that grow are on the disk; tells how far they have come, the `next`-th frame being due.
+    pub(super) fn sync(&mut self, next: u64) -> Result<(BTreeMap<String, Table>, Frames), RunError> {
         self.trajectory_place.check()?;
         let Extent { frames, bytes } = self.trajectory.sync()?;
         self.trajectory_place.renew()?;
-        let [next_row, next_frame] = next;
-        let table = Table { next: next_row, bytes: self.observables.sync()? };
-        Ok((table, Frames { next: next_frame, frames, bytes }))
+        Ok((self.tables.sync()?, Frames { next, frames, bytes }))
     }
 
     /// Makes `checkpoint` the newest.
@@ -173,9 +185,7 @@ impl Directory {
         let positions = simulation.engine.positions();
         let strengths = simulation.engine.strengths();
         csv::write(&self.path.join("final.csv"), &self.torus, &positions, &strengths)?;
-        let (clock, held) = (simulation.engine.clock(), simulation.engine.held());
-        let state = State { step: clock.step, time: clock.time, positions, strengths: Some(strengths), held };
-        Ok(state.write(&self.path.join("final.state"))?)
+        Ok(simulation.state().write(&self.path.join("final.state"))?)
     }
 
     /// Writes `run.json`.
@@ -188,6 +198,11 @@ impl Directory {
         let text = self.manifest.to_text(simulation, ending, checkpoints);
         Ok(write_atomically(&self.path.join(manifest::FILE), text.as_bytes())?)
     }
+}
+
+/// Where the discs were at the start; nothing where no table asks.
+fn initial(start: &Option<StartingState>) -> &[Position] {
+    start.as_ref().map(|start| &start.positions[..]).unwrap_or_default()
 }
 
 /// Whether the directory at `path` tells that its run has finished as `outcome` says.

@@ -6,6 +6,7 @@ use crate::engine::EngineError;
 use crate::files::FileError;
 use crate::files::state::StateError;
 use crate::golden::GoldenError;
+use crate::observables::series::SeriesError;
 use crate::simulation::SimulationError;
 use crate::snapshot::SnapshotError;
 use std::path::PathBuf;
@@ -148,6 +149,22 @@ pub enum RunError {
     /// A file that the run was writing is not there.
     #[error("{}: the file is gone; put it back, or begin the run anew in another directory", .0.display())]
     Gone(PathBuf),
+    /// The checkpoint does not tell of a table that the configuration asks for.
+    #[error(
+        "{}: the checkpoint does not tell of the series {series}, which config.toml asks for: begin the run anew", directory.display()
+    )]
+    NoTable {
+        /// The run's directory.
+        directory: PathBuf,
+        /// The series.
+        series: &'static str,
+    },
+    /// A series cannot be made.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    /// The state at the start is another than when the run began.
+    #[error("{}: not the state that the run began with; put the file back, or begin the run anew", .0.display())]
+    Start(PathBuf),
     /// A file has less in it than when the checkpoint was written.
     #[error("{0}; put the whole file back, or begin the run anew in another directory")]
     Lost(FileError),

@@ -47,13 +47,14 @@ impl Growing {
         Ok(())
     }
 
-    /// Appends `line` and hands it to the system, so that it outlives this program.
-    pub(super) fn append(&mut self, line: &str) -> Result<(), RunError> {
+    /// Appends `lines`, each with its end, and hands them to the system, so that they outlive this program.
+    pub(super) fn append(&mut self, lines: &str) -> Result<(), RunError> {
         self.place.check()?;
-        writeln!(self.file, "{line}")
+        self.file
+            .write_all(lines.as_bytes())
             .and_then(|()| self.file.flush())
             .map_err(|source| written(&self.place.path, source))?;
-        self.place.length += line.len() as u64 + 1;
+        self.place.length += lines.len() as u64;
         Ok(())
     }
 

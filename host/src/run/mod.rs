@@ -33,8 +33,9 @@ mod lock;
 mod manifest;
 mod progress;
 mod resume;
-mod row;
 mod schedule;
+mod start;
+mod tables;
 
 pub use error::RunError;
 pub use resume::Resumed;
@@ -46,15 +47,14 @@ use crate::engine::MeshReuse;
 use crate::files::trajectory::Frame;
 use crate::golden::Golden;
 use crate::observables::clusters::Clusters;
-use crate::observables::energy::PotentialEnergy;
+use crate::observables::series::Moment;
 use crate::simulation::Simulation;
 use directory::Directory;
 use manifest::Ending;
 use meniscus_core::digest::Digest;
 use meniscus_core::dynamics::Clock;
-use meniscus_core::units::time_from_units;
+use meniscus_core::units::{force_from_units, time_from_units};
 use progress::{Pictures, Progress, Records};
-use row::{Row, largest_force};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -168,9 +168,6 @@ pub struct Run {
     golden_request: GoldenRequest,
     /// Records in the golden file as it is on the disk; None if it is to be written anyway.
     golden_written: Option<usize>,
-    observables: Schedule,
-    /// None if there are no rows.
-    energy: Option<PotentialEnergy>,
     trajectory: Schedule,
     snapshots: Schedule,
     checkpoints: Checkpoints,
@@ -204,7 +201,7 @@ impl Run {
         Directory::refuse_used(directory)?;
         golden_request.check(directory)?;
         let configuration = &simulation.configuration;
-        let Output { observables, trajectory, snapshots, .. } = configuration.output;
+        let Output { trajectory, snapshots, .. } = configuration.output;
         let (scale, clock) = (configuration.time_scale(), simulation.engine.clock());
         let schedule = |interval: f64| Schedule::new(interval * scale, clock.time);
         let mut run = Self {
@@ -212,8 +209,6 @@ impl Run {
             golden: Golden::new(configuration.to_toml(), "a run"),
             golden_request,
             golden_written: None,
-            observables: schedule(observables),
-            energy: energy(&simulation),
             trajectory: schedule(trajectory),
             snapshots: schedule(snapshots),
             checkpoints: Checkpoints {
@@ -290,46 +285,40 @@ impl Run {
     /// Writes what is due at the present state.
     fn look(&mut self) -> Result<(), RunError> {
         let clock = self.simulation.engine.clock();
-        let observables = self.observables.is_due(clock.time);
+        let [observables, rows] = self.directory.note_due(clock.time);
         let trajectory = self.trajectory.is_due(clock.time);
         let snapshot = self.snapshots.is_due(clock.time);
         if clock.step.is_multiple_of(self.golden_request.every) {
             self.golden.record(self.simulation.engine.state().digest_by_field());
         }
-        if !(observables || trajectory || snapshot) {
+        if !(rows || trajectory || snapshot) {
             return Ok(());
         }
         let positions = self.simulation.engine.positions();
-        let strengths = self.simulation.engine.strengths();
-        let clusters = Clusters::find(&self.simulation.torus, &positions);
-        let time_over_jeans = self.simulation.time_over_jeans();
+        let clusters = (observables || trajectory || snapshot)
+            .then(|| Clusters::find(&self.simulation.torus, &positions));
         // If there are no forces, the step will say so.
-        let next_step = self.simulation.engine.next_step().ok();
-        let length = next_step.map_or(0, |(length, _)| length);
-        if observables {
-            let energies = self
-                .energy
-                .as_ref()
-                .map(|energy| energy.of(&positions, Some(&strengths)))
-                .unwrap_or_default();
-            self.directory.write_row(&Row { clock, time_over_jeans, next_step, energies }, &clusters)?;
-        }
+        let next_step =
+            if observables || trajectory { self.simulation.engine.next_step().ok() } else { None };
+        let moment = Moment::new(clock.step, clock.time, self.simulation.configuration.jeans_time());
+        let frame = Frame {
+            step: clock.step,
+            time: clock.time,
+            time_over_jeans: moment.time_over_jeans,
+            time_step: next_step.map_or(0.0, |(length, _)| time_from_units(length)),
+            largest_force: next_step.map(|(_, force)| largest_force(force)),
+            positions: &positions,
+            crossings: &self.simulation.engine.crossings(),
+            strengths: &self.simulation.engine.strengths(),
+            clustered: clusters.as_ref(),
+        };
+        self.directory.write_rows(&moment, &frame)?;
         if trajectory {
-            self.directory.write_frame(&Frame {
-                step: clock.step,
-                time: clock.time,
-                time_over_jeans,
-                time_step: time_from_units(length),
-                largest_force: next_step.map(|(_, force)| largest_force(force)),
-                positions: &positions,
-                crossings: &self.simulation.engine.crossings(),
-                strengths: &strengths,
-                clustered: Some(&clusters),
-            })?;
+            self.directory.write_frame(&frame)?;
         }
-        if snapshot {
+        if let (true, Some(clusters)) = (snapshot, &clusters) {
             let index = self.snapshots.last_due();
-            self.directory.draw_snapshot(index, &self.simulation, &positions, &clusters)?;
+            self.directory.draw_snapshot(index, &self.simulation, &positions, clusters)?;
         }
         Ok(())
     }
@@ -345,8 +334,7 @@ impl Run {
     /// Writes a checkpoint. What it says of other files is on the disk before.
     fn write_checkpoint(&mut self) -> Result<(), RunError> {
         let begun = Instant::now();
-        let next = [&self.observables, &self.trajectory].map(Schedule::next_due);
-        let (observables, trajectory) = self.directory.sync(next)?;
+        let (tables, trajectory) = self.directory.sync(self.trajectory.next_due())?;
         if self.golden_written != Some(self.golden.records.len()) {
             self.golden.write(&self.golden_request.path)?;
             self.golden_written = Some(self.golden.records.len());
@@ -354,7 +342,8 @@ impl Run {
         let (engine, written) = (&self.simulation.engine, self.checkpoints.written + 1);
         let progress = Progress {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            observables,
+            tables,
+            start: self.directory.start_digest(),
             trajectory,
             snapshots: Pictures { next: self.snapshots.next_due() },
             golden: self.golden_request.progress(self.directory.path(), self.golden.records.len()),
@@ -423,8 +412,7 @@ impl Run {
     }
 }
 
-/// The energy of rows, if there are any.
-fn energy(simulation: &Simulation) -> Option<PotentialEnergy> {
-    let configuration = &simulation.configuration;
-    (configuration.output.observables > 0.0).then(|| PotentialEnergy::new(&configuration.system))
+/// A largest force of unit 2⁻²⁴ kBT/R0 in kBT/R0.
+fn largest_force(units: u64) -> f64 {
+    force_from_units(i64::try_from(units).unwrap_or(i64::MAX))
 }

@@ -5,7 +5,8 @@
 //! | Key | What |
 //! |---|---|
 //! | `version` | version of Meniscus that wrote it |
-//! | `observables` | `next`, the number of the next due time; `bytes`, the length of `observables.csv` |
+//! | `tables` | by the name of each series that is written: `next`, the number of the next due time; `bytes`, the length of its file |
+//! | `start` | SHA-256 of `start.state`, null if no table compares with it |
 //! | `trajectory` | `next`; `frames` and `bytes` of the trajectory |
 //! | `snapshots` | `next` |
 //! | `golden` | `path` of the golden file, null for `golden.toml` in the directory; `every` how many steps there is a record; `records` in it |
@@ -15,12 +16,14 @@
 use crate::engine::MeshReuse;
 use crate::files::trajectory::Extent;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Progress {
     pub version: String,
-    pub observables: Table,
+    pub tables: BTreeMap<String, Table>,
+    pub start: Option<String>,
     pub trajectory: Frames,
     pub snapshots: Pictures,
     pub golden: Records,
@@ -81,7 +84,8 @@ mod tests {
     fn what_is_written_is_read_back() {
         let progress = Progress {
             version: "0.1.0".to_owned(),
-            observables: Table { next: 3, bytes: u64::MAX },
+            tables: BTreeMap::from([("modes".to_owned(), Table { next: 3, bytes: u64::MAX })]),
+            start: Some("12ab".to_owned()),
             trajectory: Frames { next: 1, frames: 2, bytes: 3 },
             snapshots: Pictures { next: 0 },
             golden: Records { path: Some("a \"b\"/\n.toml".to_owned()), every: 1000, records: 7 },

@@ -4,7 +4,7 @@ use super::directory::{self, CONFIGURATION, Directory};
 use super::lock::Lock;
 use super::manifest::Ending;
 use super::progress::Progress;
-use super::{Checkpoints, GoldenRequest, Outcome, Run, RunError, Schedule, energy};
+use super::{Checkpoints, GoldenRequest, Outcome, Run, RunError, Schedule};
 use crate::checkpoint::{Checkpoint, store};
 use crate::configuration::Configuration;
 use crate::engine::Machinery;
@@ -70,16 +70,13 @@ impl Run {
         }
         let golden = read_golden(&golden_request, &simulation.configuration, progress.golden.records)?;
 
-        let (output, scale) =
-            (simulation.configuration.output.clone(), simulation.configuration.time_scale());
+        let (output, scale) = (&simulation.configuration.output, simulation.configuration.time_scale());
         let schedule = |interval: f64, next| Schedule::resumed(interval * scale, next);
         let run = Self {
             directory: Directory::resume(directory, lock, &simulation, &progress)?,
             golden,
             golden_request,
             golden_written: None,
-            observables: schedule(output.observables, progress.observables.next),
-            energy: energy(&simulation),
             trajectory: schedule(output.trajectory, progress.trajectory.next),
             snapshots: schedule(output.snapshots, progress.snapshots.next),
             checkpoints: Checkpoints {
