@@ -7,6 +7,7 @@
 //! - [`npz`]: trajectories for NumPy
 //! - [`state`]: the canonical bytes of a state
 //! - [`trajectory`]: files to which a run appends frames, of any format
+//! - [`table`]: tables with named columns, as runs and ensembles write them
 //! - [`atomic`]: a file is there whole or not at all
 //!
 //! ```
@@ -31,6 +32,7 @@ pub mod lammps_dump;
 mod lines;
 pub mod npz;
 pub mod state;
+pub mod table;
 pub mod trajectory;
 
 pub use error::{FileError, FormatError};
