@@ -36,10 +36,12 @@ mod resume;
 mod schedule;
 mod start;
 mod tables;
+mod unbegun;
 
 pub use error::RunError;
 pub use resume::Resumed;
 pub use schedule::Schedule;
+pub use unbegun::clear_unbegun;
 
 use crate::checkpoint::Checkpoint;
 use crate::configuration::Output;
