@@ -10,6 +10,7 @@ pub mod checkpoint;
 pub mod commands;
 pub mod configuration;
 pub mod engine;
+pub mod ensemble;
 pub mod files;
 pub mod golden;
 pub mod memory;

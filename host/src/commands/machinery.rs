@@ -15,7 +15,7 @@ pub(super) struct MachineryArguments {
 }
 
 /// More are a slip of the keyboard.
-const MOST_THREADS: i64 = 1024;
+pub(super) const MOST_THREADS: i64 = 1024;
 
 impl MachineryArguments {
     /// What was asked for.
@@ -35,6 +35,6 @@ impl MachineryArguments {
 }
 
 /// Processors that this program may use.
-fn processors() -> usize {
+pub(super) fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, |count| count.get().min(MOST_THREADS as usize))
 }

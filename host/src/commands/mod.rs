@@ -4,8 +4,10 @@
 
 mod convert;
 mod digest;
+mod ensemble;
 mod forces;
 mod machinery;
+mod members;
 mod presets;
 mod progress;
 mod reporter;
@@ -15,6 +17,7 @@ mod verify;
 
 use crate::configuration::{Configuration, ConfigurationError};
 use crate::engine::EngineError;
+use crate::ensemble::EnsembleError;
 use crate::files::FileError;
 use crate::golden::GoldenError;
 use crate::run::RunError;
@@ -50,6 +53,8 @@ enum Command {
     Digest(digest::Arguments),
     /// Repeat a golden run and compare.
     Verify(verify::Arguments),
+    /// Run a sweep, seeds times values of keys, over all processors, and gather tables of means and errors.
+    Ensemble(ensemble::Arguments),
     /// List the presets, or print one as a complete configuration.
     Presets(presets::Arguments),
 }
@@ -87,6 +92,10 @@ enum CommandError {
     Golden(#[from] GoldenError),
     #[error(transparent)]
     File(#[from] FileError),
+    #[error(transparent)]
+    Ensemble(#[from] EnsembleError),
+    #[error("{failed} of {members} members failed; the first is member {index}: {reason}")]
+    Members { failed: usize, members: usize, index: usize, reason: String },
     #[error(
         "--threads {threads}: --engine core takes one thread; leave --threads out, or take --engine host"
     )]
@@ -124,6 +133,7 @@ pub fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(arguments, reporter),
         Command::Digest(arguments) => digest::run(arguments, reporter),
         Command::Verify(arguments) => verify::run(arguments, reporter),
+        Command::Ensemble(arguments) => ensemble::run(arguments, reporter),
         Command::Presets(arguments) => presets::run(arguments, reporter),
     };
     match result {

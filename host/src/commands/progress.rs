@@ -7,9 +7,9 @@ use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 /// Time between looks at the clock's reading on a terminal.
-const REFRESH: Duration = Duration::from_millis(200);
+pub(super) const REFRESH: Duration = Duration::from_millis(200);
 /// Time between lines elsewhere.
-const LINE_INTERVAL: Duration = Duration::from_secs(30);
+pub(super) const LINE_INTERVAL: Duration = Duration::from_secs(30);
 
 pub(super) struct Progress {
     begun: Instant,
@@ -73,7 +73,7 @@ impl Progress {
 }
 
 /// A duration as a person would say it.
-fn duration(seconds: f64) -> String {
+pub(super) fn duration(seconds: f64) -> String {
     let minutes = seconds / 60.0;
     match minutes {
         _ if seconds < 100.0 => format!("{seconds:.0} s"),

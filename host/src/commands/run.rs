@@ -165,7 +165,7 @@ pub(super) fn conclude(outcome: &Outcome, reporter: &mut Reporter<'_>) -> std::i
 }
 
 /// A flag that Ctrl-C and a request to terminate raise.
-fn stop_signal() -> Result<Arc<AtomicBool>, CommandError> {
+pub(super) fn stop_signal() -> Result<Arc<AtomicBool>, CommandError> {
     let raised = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         signal_hook::flag::register(signal, Arc::clone(&raised)).map_err(CommandError::Signal)?;
@@ -174,7 +174,7 @@ fn stop_signal() -> Result<Arc<AtomicBool>, CommandError> {
 }
 
 /// A word as a shell reads it back.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let plain = |character: char| character.is_ascii_alphanumeric() || "/._-+,:=@%".contains(character);
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }

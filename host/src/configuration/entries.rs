@@ -283,7 +283,7 @@ fn whole(key: &Key, item: &Item) -> Result<i64, (String, String)> {
 }
 
 /// A value as its user would write it.
-fn repeat(item: &Item) -> String {
+pub(crate) fn repeat(item: &Item) -> String {
     match item {
         Item::Value(Value::String(text)) => format!("\"{}\"", text.value()),
         Item::Value(Value::Integer(number)) => number.value().to_string(),
@@ -298,7 +298,7 @@ fn repeat(item: &Item) -> String {
 }
 
 /// A value with its type.
-fn describe(item: &Item) -> String {
+pub(crate) fn describe(item: &Item) -> String {
     let kind = match item {
         Item::Value(Value::String(_)) => "string",
         Item::Value(Value::Integer(_)) => "whole number",
@@ -311,7 +311,7 @@ fn describe(item: &Item) -> String {
 }
 
 /// The parser's complaint with its place.
-fn syntax_error(name: &str, text: &str, error: &TomlError) -> ConfigurationError {
+pub(crate) fn syntax_error(name: &str, text: &str, error: &TomlError) -> ConfigurationError {
     let start = error.span().map_or(text.len(), |span| span.start);
     let (line, column) = line_and_column(text, start);
     let piece = error.span().and_then(|span| text.get(span)).unwrap_or_default();
@@ -326,7 +326,7 @@ fn syntax_error(name: &str, text: &str, error: &TomlError) -> ConfigurationError
 }
 
 /// Line and column, both from 1, of a byte of a text; columns are counted in characters.
-fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
+pub(crate) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     let mut before = text.len().min(byte);
     while !text.is_char_boundary(before) {
         before -= 1;

@@ -635,7 +635,7 @@ pub fn nearest_table(unknown: &str) -> Option<&'static str> {
 }
 
 /// The most similar of `known` if at most `tolerance` changes of letters away.
-pub(super) fn nearest(
+pub(crate) fn nearest(
     unknown: &str,
     known: impl IntoIterator<Item = &'static str>,
     tolerance: usize,
@@ -654,7 +654,7 @@ pub(super) fn nearest(
 }
 
 /// How many changes of letters a slip may be: a third of the name.
-pub(super) fn tolerance(name: &str) -> usize {
+pub(crate) fn tolerance(name: &str) -> usize {
     name.len().div_ceil(3)
 }
 

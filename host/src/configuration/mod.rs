@@ -30,6 +30,7 @@ mod system;
 mod write;
 
 pub use crate::accuracy::ACCURACY_RANGE;
+pub(crate) use entries::{describe, line_and_column, repeat, syntax_error};
 pub use error::{ConfigurationError, Place};
 pub use meniscus_core::fields::Fields;
 pub use meniscus_core::parameters::{Assignment, Gradient, Influence, Method, Noise};
@@ -102,16 +103,7 @@ impl Configuration {
     /// # Errors
     /// A [`ConfigurationError`] that says in one line what is wrong where.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Self, ConfigurationError> {
-        let name = path.display().to_string();
-        let unreadable = |reason| ConfigurationError::Unreadable { file: name.clone(), reason };
-        let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
-            .map_err(|error| unreadable(error.to_string()))?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(unreadable(format!("it is larger than {LARGEST_FILE} bytes")));
-        }
-        Self::from_bytes(&name, &bytes, overrides)
+        Self::from_text(&path.display().to_string(), &file_text(path)?, overrides)
     }
 
     /// Reads the bytes of a file, called `name` in messages; otherwise as [`Configuration::read`].
@@ -119,11 +111,7 @@ impl Configuration {
     /// # Errors
     /// A [`ConfigurationError`] that says in one line what is wrong where.
     pub fn from_bytes(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, ConfigurationError> {
-        let text = std::str::from_utf8(bytes).map_err(|error| ConfigurationError::Encoding {
-            file: name.to_owned(),
-            byte: error.valid_up_to(),
-        })?;
-        Self::from_text(name, text, overrides)
+        Self::from_text(name, utf8(name, bytes)?, overrides)
     }
 
     /// Reads a text, called `name` in messages; otherwise as [`Configuration::read`].
@@ -288,6 +276,26 @@ impl Configuration {
     pub fn seconds_per_time_unit(&self) -> Option<f64> {
         self.physical.map(|physical| physical.seconds_per_time_unit())
     }
+}
+
+/// The text of a file that is no larger than a configuration may be.
+pub(crate) fn file_text(path: &Path) -> Result<String, ConfigurationError> {
+    let name = path.display().to_string();
+    let unreadable = |reason| ConfigurationError::Unreadable { file: name.clone(), reason };
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(error.to_string()))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(unreadable(format!("it is larger than {LARGEST_FILE} bytes")));
+    }
+    utf8(&name, &bytes).map(str::to_owned)
+}
+
+/// The text that the bytes of a file are.
+fn utf8<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ConfigurationError> {
+    std::str::from_utf8(bytes)
+        .map_err(|error| ConfigurationError::Encoding { file: name.to_owned(), byte: error.valid_up_to() })
 }
 
 #[cfg(test)]

@@ -1,0 +1,307 @@
+//! The tables of finished members put together: mean and standard error over seeds.
+//!
+//! A gathered table has the swept keys as its first columns; then `bin`, the number k of the interval at or after which
+//! rows were due; `time` (R0²/D) and `time_over_jeans`, their means over the rows; the columns that tell rows of one time
+//! from each other, if any; `runs`, how many runs have such a row; and for each other column `x` of the runs `x` and
+//! `x_error`, mean and standard error of the mean over the runs in which there is a value, empty for no run, the error for
+//! one. Rows are in the order of the sweep, then of bins, then of the columns that tell rows apart. Numbers are summed in
+//! the order of seeds.
+
+use super::error::{EnsembleError, MemberError};
+use super::member::{Member, Setting};
+use super::series::{Bins, FIRST_COLUMNS, SERIES, Series};
+use super::standing::{Finished, Standing};
+use super::statistics::Sample;
+use super::sweep::Sweep;
+use super::{MEMBERS, SWEEP};
+use crate::configuration::Start;
+use crate::files::atomic::write_atomically;
+use crate::files::table::{Table, TableText};
+use crate::files::{FileError, FormatError};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+/// Name of the file that is locked while tables are gathered. It is empty, and stays.
+const LOCK: &str = "lock";
+
+/// What was gathered.
+#[derive(Debug)]
+pub struct Gathered {
+    /// How many members the sweep has.
+    pub members: usize,
+    /// How many have finished, and are in the tables.
+    pub finished: usize,
+    /// Numbers and errors of members whose directories are not theirs, or are damaged.
+    pub damaged: Vec<(usize, MemberError)>,
+    /// The tables written.
+    pub tables: Vec<PathBuf>,
+}
+
+/// Gathers the tables of the ensemble in `directory`, whose sweep is read from there. Members that have not finished are
+/// left out.
+///
+/// # Errors
+/// [`EnsembleError`]; if a finished member's table is cut, or has other columns than the others, nothing is written for
+/// its kind of tables.
+pub fn gather(directory: &Path) -> Result<Gathered, EnsembleError> {
+    let path = directory.join(SWEEP);
+    if !path.exists() {
+        return Err(EnsembleError::NoSweep(directory.to_owned()));
+    }
+    gather_sweep(&Sweep::read(&path)?, directory)
+}
+
+/// Gathers the tables of the members of `sweep` in `directory`.
+///
+/// # Errors
+/// As [`gather`].
+pub fn gather_sweep(sweep: &Sweep, directory: &Path) -> Result<Gathered, EnsembleError> {
+    // Of two that gather at a time, the later sees what the earlier saw.
+    let lock = directory.join(LOCK);
+    let file = File::options().create(true).append(true).open(&lock);
+    let file = file.map_err(|source| EnsembleError::Write { path: lock, source })?;
+    // A file system without locks must not keep anybody from gathering.
+    let _ = file.lock();
+
+    let standings: Vec<_> = sweep.members().iter().map(|member| Standing::of(member, directory)).collect();
+    let mut tables = vec![directory.join(MEMBERS)];
+    write_atomically(&directory.join(MEMBERS), &members_table(sweep, &standings))?;
+    for series in SERIES {
+        let path = directory.join(series.file);
+        match series_table(series, sweep, &standings, directory)? {
+            Some(text) => {
+                write_atomically(&path, &text)?;
+                tables.push(path);
+            }
+            // Of another sweep, perhaps.
+            None if path.exists() => {
+                fs::remove_file(&path).map_err(|source| EnsembleError::Write { path, source })?;
+            }
+            None => {}
+        }
+    }
+    let finished = standings.iter().filter(|standing| matches!(standing, Ok(Standing::Finished(_)))).count();
+    let damaged =
+        (1..).zip(standings).filter_map(|(index, standing)| Some((index, standing.err()?))).collect();
+    Ok(Gathered { members: sweep.members().len(), finished, damaged, tables })
+}
+
+/// `members.csv`.
+fn members_table(sweep: &Sweep, standings: &[Result<Standing, MemberError>]) -> Vec<u8> {
+    let keys = sweep.keys();
+    let mut text = TableText::new(
+        ["index", "seed"].into_iter().chain(keys).chain(["hash", "status", "steps", "digest"]),
+    );
+    for (member, standing) in sweep.members().iter().zip(standings) {
+        let status = standing.as_ref().map_or("damaged", Standing::word);
+        let (steps, digest) = match standing {
+            Ok(Standing::Finished(Finished { step, digest, .. })) => (step.to_string(), digest.clone()),
+            _ => Default::default(),
+        };
+        let mut cells = vec![member.index.to_string(), member.seed.to_string()];
+        cells.extend(member.settings.iter().map(|setting| setting.value.clone()));
+        cells.extend([member.hash.clone(), status.to_owned(), steps, digest]);
+        text.row(cells);
+    }
+    text.into_bytes()
+}
+
+/// The gathered table of a series; None if no finished member has it.
+fn series_table(
+    series: &Series,
+    sweep: &Sweep,
+    standings: &[Result<Standing, MemberError>],
+    directory: &Path,
+) -> Result<Option<Vec<u8>>, EnsembleError> {
+    let mut values: Option<Vec<String>> = None;
+    let mut text: Option<TableText> = None;
+    for combination in sweep.combinations() {
+        let mut members: Vec<&Member> = combination.iter().collect();
+        members.sort_by_key(|member| member.seed);
+        let mut groups = Groups::default();
+        for member in members {
+            let Some(Ok(Standing::Finished(finished))) = standings.get(member.index - 1) else { continue };
+            let Some(bins) = Bins::of(series, &member.configuration) else { continue };
+            let path = member.directory(directory).join(series.file);
+            let table = Table::read(&path)?;
+            let found = value_columns(series, &table, &path)?;
+            let expected = values.get_or_insert_with(|| found.clone());
+            if found != *expected {
+                let [found, expected] = [&found, &*expected].map(|columns| columns.join(","));
+                return Err(EnsembleError::Columns { path, found, expected });
+            }
+            text.get_or_insert_with(|| TableText::new(header(series, sweep, &found)));
+            refuse_cut(&table, bins, finished, member, &path)?;
+            groups.add(&table, series, bins, member).map_err(|problem| FileError::Read { path, problem })?;
+        }
+        if let (Some(text), Some(member)) = (&mut text, combination.first()) {
+            groups.write(&member.settings, text);
+        }
+    }
+    Ok(text.map(TableText::into_bytes))
+}
+
+/// The names of the columns of a gathered table.
+fn header(series: &Series, sweep: &Sweep, values: &[String]) -> Vec<String> {
+    let mut columns: Vec<String> = sweep.keys().map(str::to_owned).collect();
+    columns.extend(["bin", "time", "time_over_jeans"].map(str::to_owned));
+    columns.extend(series.keys.iter().map(|&key| key.to_owned()));
+    columns.push("runs".to_owned());
+    columns.extend(values.iter().flat_map(|name| [name.clone(), format!("{name}_error")]));
+    columns
+}
+
+/// The names of the columns of values of a run's table.
+fn value_columns(series: &Series, table: &Table, path: &Path) -> Result<Vec<String>, EnsembleError> {
+    let first: Vec<&str> = FIRST_COLUMNS.iter().chain(series.keys).copied().collect();
+    let columns: Vec<&str> = table.columns().collect();
+    match columns.strip_prefix(&first[..]) {
+        Some(values) => Ok(values.iter().map(|&name| name.to_owned()).collect()),
+        None => Err(EnsembleError::Table {
+            path: path.to_owned(),
+            found: format!("columns {}", columns.join(",")),
+            expected: format!("the first to be {}", first.join(",")),
+        }),
+    }
+}
+
+/// Refuses a table of a finished run that lacks its last rows.
+fn refuse_cut(
+    table: &Table,
+    bins: Bins,
+    finished: &Finished,
+    member: &Member,
+    path: &Path,
+) -> Result<(), EnsembleError> {
+    let expected = bins.last_due(finished.time);
+    let last = table.len().checked_sub(1).map(|row| time(table, row));
+    let found = last.transpose().map_err(|problem| FileError::Read { path: path.to_owned(), problem })?;
+    match found.map(|time| bins.last_due(time)) {
+        Some(found) if found == expected => Ok(()),
+        // A run that goes on from a file may have ended before anything was due.
+        None if matches!(member.configuration.start, Start::File { .. }) => Ok(()),
+        found => Err(EnsembleError::Table {
+            path: path.to_owned(),
+            found: found.map_or("no row".to_owned(), |found| format!("a last row of bin {found}")),
+            expected: format!("one of bin {expected}"),
+        }),
+    }
+}
+
+/// The time of a row, R0²/D.
+fn time(table: &Table, row: usize) -> Result<f64, FormatError> {
+    required(table, row, 1)
+}
+
+/// A number that has to be there.
+fn required(table: &Table, row: usize, column: usize) -> Result<f64, FormatError> {
+    table.number(row, column)?.ok_or_else(|| FormatError::Line {
+        line: table.line(row),
+        found: "an empty cell".to_owned(),
+        expected: format!("a number in column {}", table.columns().nth(column).unwrap_or_default()),
+    })
+}
+
+/// A cell that tells rows of one time from each other: numbers in their order, then words.
+#[derive(Clone, Debug)]
+struct Key {
+    text: String,
+    number: f64,
+}
+
+impl Key {
+    fn new(text: &str) -> Self {
+        Self { text: text.to_owned(), number: text.parse().unwrap_or(f64::INFINITY) }
+    }
+}
+
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.number.total_cmp(&other.number).then_with(|| self.text.cmp(&other.text))
+    }
+}
+
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Key {}
+
+/// The rows of one bin and key, over the seeds.
+#[derive(Debug, Default)]
+struct Group {
+    /// The member that was added last.
+    last: usize,
+    runs: u64,
+    time: Sample,
+    time_over_jeans: Sample,
+    values: Vec<Sample>,
+}
+
+/// The rows of one combination of swept values.
+#[derive(Debug, Default)]
+struct Groups(BTreeMap<(u64, Vec<Key>), Group>);
+
+impl Groups {
+    /// Takes the rows of another member.
+    fn add(
+        &mut self,
+        table: &Table,
+        series: &Series,
+        bins: Bins,
+        member: &Member,
+    ) -> Result<(), FormatError> {
+        let (first, all) = (FIRST_COLUMNS.len(), table.width());
+        let first_value = first + series.keys.len();
+        for row in 0..table.len() {
+            let time = time(table, row)?;
+            let bin = bins.last_due(time);
+            let keys: Vec<Key> =
+                (first..first_value).map(|column| Key::new(table.cell(row, column))).collect();
+            let group = self.0.entry((bin, keys)).or_default();
+            if group.last == member.index {
+                return Err(FormatError::Line {
+                    line: table.line(row),
+                    found: format!("a second row of bin {bin}"),
+                    expected: "one".to_owned(),
+                });
+            }
+            group.last = member.index;
+            group.runs += 1;
+            group.time.add(time);
+            if let Some(time) = table.number(row, 2)? {
+                group.time_over_jeans.add(time);
+            }
+            group.values.resize(all - first_value, Sample::default());
+            for (sample, column) in group.values.iter_mut().zip(first_value..) {
+                if let Some(value) = table.number(row, column)? {
+                    sample.add(value);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes a row for each bin and key.
+    fn write(&self, settings: &[Setting], text: &mut TableText) {
+        let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+        for ((bin, keys), group) in &self.0 {
+            let mut cells: Vec<String> = settings.iter().map(|setting| setting.value.clone()).collect();
+            cells.extend([bin.to_string(), cell(group.time.mean()), cell(group.time_over_jeans.mean())]);
+            cells.extend(keys.iter().map(|key| key.text.clone()));
+            cells.push(group.runs.to_string());
+            cells.extend(group.values.iter().flat_map(|sample| [cell(sample.mean()), cell(sample.error())]));
+            text.row(cells);
+        }
+    }
+}
