@@ -1,8 +1,7 @@
-//! What the mean-field theory predicts, in closed form.
+//! Jeans' instability of a homogeneous monolayer, in closed form.
 //!
 //! In: the strength V0 (kBT) and length λ (R0) of the capillary attraction and the mean density ρ_h
-//! (R0⁻²). Out: times in R0²/D, wavenumbers in R0⁻¹, radii in R0. Equations are those of Bleibel,
-//! Dietrich, Domínguez and Oettel (2011).
+//! (R0⁻²). Out: times in R0²/D, wavenumbers in R0⁻¹, rates in D/R0².
 //!
 //! ```
 //! use meniscus::theory::Instability;
@@ -61,6 +60,31 @@ impl Instability {
         })
     }
 
+    /// That of a fluid whose pressure p rises with its density as p'(ρ_h) = `stiffness` (kBT): K by Eq. 8, which is Eq. 22
+    /// over √p'. The stiffness is that of [`Pressure::stiffness`](super::Pressure::stiffness), 1 for the ideal gas.
+    ///
+    /// None unless V0, ρ_h and p' are positive.
+    ///
+    /// ```
+    /// use meniscus::theory::{Instability, Pressure};
+    ///
+    /// let discs = Instability::of_fluid(0.89, 0.01, 270.0, Pressure::discs().stiffness(0.01)).expect("it attracts");
+    /// let ideal_gas = Instability::of_ideal_gas(0.89, 0.01, 270.0).expect("it attracts");
+    /// assert_eq!(discs.jeans_time, ideal_gas.jeans_time);
+    /// assert!(discs.jeans_wavenumber < ideal_gas.jeans_wavenumber);
+    /// ```
+    #[must_use]
+    pub fn of_fluid(
+        capillary_strength: f64,
+        density: f64,
+        capillary_length: f64,
+        stiffness: f64,
+    ) -> Option<Self> {
+        let ideal = Self::of_ideal_gas(capillary_strength, density, capillary_length)?;
+        let jeans_wavenumber = ideal.jeans_wavenumber / stiffness.sqrt();
+        (stiffness > 0.0).then_some(Self { jeans_wavenumber, ..ideal })
+    }
+
     /// Growth rate 1/τ(k) of the mode of wavenumber `wavenumber` (R0⁻¹), D/R0² (Eq. 10):
     /// (1/T)(k/K)²[1/((k/K)² + (λK)⁻²) − 1].
     ///
@@ -83,24 +107,6 @@ impl Instability {
         let reach = self.capillary_length * self.jeans_wavenumber;
         (reach > 1.0).then(|| self.jeans_wavenumber * (1.0 - 1.0 / squared(reach)).sqrt())
     }
-}
-
-/// Radius of a ring in cold collapse of a top-hat patch for λ → ∞, R(t) = R(0)√(1 − t/T), R0 (Eq. 13).
-///
-/// `initial_radius` is R(0) in R0, `time_over_jeans` is t/T. 0 once collapsed.
-#[must_use]
-pub fn cold_collapse_radius(initial_radius: f64, time_over_jeans: f64) -> f64 {
-    collapse_fit(initial_radius, 0.0, 1.0, time_over_jeans)
-}
-
-/// The fit of a collapsing ring, R(t) = R_f + (R_i − R_f)√(1 − t/(A0·T)), R0 (Eq. 30).
-///
-/// `initial_radius` R_i and `final_radius` R_f in R0, `delay` A0 and `time_over_jeans` t/T are pure
-/// numbers. R_f once collapsed, for t ≥ A0·T.
-#[must_use]
-pub fn collapse_fit(initial_radius: f64, final_radius: f64, delay: f64, time_over_jeans: f64) -> f64 {
-    let left = (1.0 - time_over_jeans / delay).max(0.0);
-    final_radius + (initial_radius - final_radius) * left.sqrt()
 }
 
 fn squared(value: f64) -> f64 {
@@ -190,21 +196,5 @@ mod tests {
     fn no_attraction_has_no_instability() {
         assert_eq!(Instability::of_ideal_gas(0.0, DENSITY, LENGTH), None);
         assert_eq!(jeans_time(0.0, DENSITY), f64::INFINITY);
-    }
-
-    #[test]
-    fn cold_collapse_ends_at_jeans_time() {
-        assert_eq!(cold_collapse_radius(135.0, 0.0), 135.0);
-        assert_near(cold_collapse_radius(135.0, 0.75), 67.5, 1e-12);
-        assert_eq!(cold_collapse_radius(135.0, 1.0), 0.0);
-        assert_eq!(cold_collapse_radius(135.0, 2.0), 0.0);
-    }
-
-    #[test]
-    fn the_fit_starts_at_the_initial_and_ends_at_the_final_radius() {
-        assert_eq!(collapse_fit(135.0, 18.0, 1.15, 0.0), 135.0);
-        assert_eq!(collapse_fit(135.0, 18.0, 1.15, 1.15), 18.0);
-        assert_eq!(collapse_fit(135.0, 18.0, 1.15, 3.0), 18.0);
-        assert_near(collapse_fit(135.0, 18.0, 1.16, 0.87), 18.0 + 117.0 / 2.0, 1e-12);
     }
 }
