@@ -6,6 +6,7 @@
 //! [`verification`] repeats a golden run.
 
 pub mod accuracy;
+mod bessel;
 pub mod checkpoint;
 pub mod commands;
 pub mod configuration;

@@ -33,7 +33,6 @@
 //! assert!(choose(&table_1, 1e-3, &coarse).is_err());
 //! ```
 
-mod bessel;
 mod choice;
 mod cost;
 mod mesh_error;

@@ -113,7 +113,7 @@ fn exponential_rule(step: f64) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::bessel::scaled_k0_k1;
+    use crate::bessel::scaled_k0_k1;
 
     fn system(capillary_length: f64) -> System {
         System {

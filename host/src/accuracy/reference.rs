@@ -1,7 +1,7 @@
 //! The force that errors are compared with: the root mean square force of a random start.
 
 use super::System;
-use super::bessel::scaled_k0_k1;
+use crate::bessel::scaled_k0_k1;
 use core::f64::consts::PI;
 
 /// The least distance of two discs, R0: contact.

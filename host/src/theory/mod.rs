@@ -6,6 +6,7 @@
 //! - [`Instability`], [`jeans_time`], [`jeans_wavenumber`]: growth of small waves (Eqs. 7, 8, 10, 11, 22)
 //! - [`cold_collapse_radius`], [`collapse_fit`]: radii of a collapsing patch (Eqs. 13, 30)
 //! - [`Pressure`]: equations of state (Eq. 2)
+//! - [`shells`]: cold collapse of concentric shells at any capillary length
 //!
 //! ```
 //! use meniscus::theory::Instability;
@@ -20,6 +21,7 @@
 mod cold_collapse;
 mod linear;
 mod pressure;
+pub mod shells;
 
 pub use cold_collapse::{cold_collapse_radius, collapse_fit};
 pub use linear::{Instability, jeans_time, jeans_wavenumber};
