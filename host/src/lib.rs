@@ -5,13 +5,14 @@
 //! [`run`], which drives the [`engine`] and writes [`files`], [`observables`], [`snapshot`]s and [`golden`] records;
 //! [`verification`] repeats a golden run.
 
-pub mod accuracy;
 mod bessel;
+pub mod accuracy;
 pub mod checkpoint;
 pub mod commands;
 pub mod configuration;
 pub mod engine;
 pub mod ensemble;
+pub mod figures;
 pub mod files;
 pub mod golden;
 pub mod memory;
