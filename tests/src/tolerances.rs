@@ -231,10 +231,9 @@ pub const ATTRACTED_RESOLUTION: f64 = 0.03;
 
 // The observed density and its Minkowski functionals: tests/density.rs, tests/minkowski.rs.
 
-/// A disc's share of a node of the observed density, in discs, against the definition in binary64: two weights of unit
-/// 2⁻⁴⁰, each off by half a unit or, what is left for the nearest node, a whole one; and the definition's own rounding, with
-/// distances of up to 40 cells off by 2⁻⁴⁷ cells.
-pub const CLOUD_SHARE: f64 = 2.0 / 1_099_511_627_776.0;
+/// A disc's share of a node of the observed density, in discs, against the definition in binary64, in which a distance of up to
+/// 40 cells is off by some 2⁻⁴⁶ cells. The shares themselves are rounded to 2⁻⁴⁸.
+pub const CLOUD_SHARE: f64 = 1.0 / 17_592_186_044_416.0;
 
 /// The sum of the observed density over all nodes, relative: integers that are exact, converted and added in binary64, up to
 /// some thousand roundings of 2⁻⁵³.

@@ -5,7 +5,7 @@
 //! on it.
 //!
 //! A disc is spread over 3 × 3 nodes with the weights of order 3 (TSC), as the paper does for the capillary force on a
-//! finer grid. The weights are integers, of unit 2⁻⁸⁰ discs, that sum to exactly one disc: nothing is lost, and the
+//! finer grid. The weights are integers, of unit 2⁻⁹⁶ discs, that sum to exactly one disc: nothing is lost, and the
 //! order of the discs does not show.
 //!
 //! ```
@@ -130,12 +130,12 @@ impl Density {
 }
 
 /// Unit of a disc's share along one axis, discs.
-const SHARE: f64 = 1.0 / (1_u64 << 40) as f64;
+const SHARE: f64 = 1.0 / (1_u64 << 48) as f64;
 
 /// Half a cell, of which there are 2³² units.
 const HALF: i128 = 1 << 31;
 
-/// The discs on each of `grid` × `grid` nodes, unit 2⁻⁸⁰ discs.
+/// The discs on each of `grid` × `grid` nodes, unit 2⁻⁹⁶ discs, of which 2³² discs are the most that fit.
 fn deposit(grid: usize, positions: &[Position]) -> Vec<u128> {
     let mut nodes = vec![0_u128; grid * grid];
     for position in positions {
@@ -149,18 +149,18 @@ fn deposit(grid: usize, positions: &[Position]) -> Vec<u128> {
     nodes
 }
 
-/// The nodes along one axis that a disc at `coordinate` is spread over, and its shares, unit 2⁻⁴⁰: with d the distance
+/// The nodes along one axis that a disc at `coordinate` is spread over, and its shares, unit 2⁻⁴⁸: with d the distance
 /// from the nearest node in cells, (1/2 ∓ d)²/2 for its neighbours and what is left, 3/4 − d², for itself.
 fn shares(coordinate: Fraction, grid: usize) -> [(usize, u128); 3] {
     let units = i128::from(coordinate.to_bits()) * grid as i128 + HALF;
     let nearest = (units >> 32) as usize % grid;
     let distance = (units & (UNITS as i128 - 1)) - HALF;
     // From unit 2⁻⁶⁵, rounded.
-    let share = |reach: i128| ((reach * reach + (1 << 24)) >> 25) as u128;
+    let share = |reach: i128| ((reach * reach + (1 << 16)) >> 17) as u128;
     let (before, after) = (share(HALF - distance), share(HALF + distance));
     [
         ((nearest + grid - 1) % grid, before),
-        (nearest, (1 << 40) - before - after),
+        (nearest, (1 << 48) - before - after),
         ((nearest + 1) % grid, after),
     ]
 }

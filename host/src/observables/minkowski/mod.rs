@@ -50,7 +50,8 @@ pub struct Minkowski {
 }
 
 impl Minkowski {
-    /// The shape factor φ = M1²/(4π M0 M2): 1 for equal discs, more for any other clusters without holes.
+    /// The shape factor φ = M1²/(4π M0 M2): 1 for equal discs, more for equal clusters of any other shape, less for discs
+    /// of unequal radii.
     ///
     /// Negative where holes outnumber clusters. None if the area or the Euler characteristic is 0.
     #[must_use]
