@@ -41,6 +41,8 @@ fn any_box() -> impl Strategy<Value = (Torus, f64)> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn the_density_is_that_of_the_definition((torus, spacing) in any_box(), discs in any_discs()) {
         let density = Density::new(&torus, &discs, spacing).unwrap();

@@ -10,7 +10,8 @@
 //! The Euler characteristic is the number of clusters minus the number of holes where the domain does not reach around the
 //! box. On the torus it is defined for every domain as vertices − edges + faces of any division of the domain into
 //! polygons; so a stripe around the box has 0, as an annulus has, and so has the whole box. A domain and its complement
-//! have the same boundary and Euler characteristics of opposite sign.
+//! have the same boundary and Euler characteristics of opposite sign (as pixels if the complement's cells do not connect at
+//! corners where the domain's do).
 //!
 //! ```
 //! use meniscus::observables::density::Density;
