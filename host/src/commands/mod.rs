@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error); a closed pipe changes none of them.
 
+mod analyze;
 mod convert;
 mod digest;
 mod ensemble;
@@ -20,6 +21,7 @@ use crate::engine::EngineError;
 use crate::ensemble::EnsembleError;
 use crate::files::FileError;
 use crate::golden::GoldenError;
+use crate::observables::series::SeriesError;
 use crate::run::RunError;
 use crate::simulation::SimulationError;
 use clap::{Args, Parser, Subcommand};
@@ -49,6 +51,8 @@ enum Command {
     Forces(forces::Arguments),
     /// Write a file of positions or a trajectory in another format.
     Convert(convert::Arguments),
+    /// Write tables of observables of a trajectory, as `run` does on the way.
+    Analyze(analyze::Arguments),
     /// Print length and SHA-256 of a state: of a run's directory, of a state file, or of a trajectory.
     Digest(digest::Arguments),
     /// Repeat a golden run and compare.
@@ -102,6 +106,20 @@ enum CommandError {
     CoreThreads { threads: u16 },
     #[error("--box {side}: a box has a side of {SMALLEST_SIDE} to {LARGEST_SIDE} R0")]
     Side { side: f64 },
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    #[error(
+        "--series radii: which discs belong together is not known: give --width W for shells of W R0, or by --configuration \
+         that of a run that starts from rings or a disc"
+    )]
+    Groups,
+    #[error(
+        "{}: {key} is {found}, that of the configuration {configured}: name the run's own with --configuration",
+        path.display()
+    )]
+    OtherSystem { path: PathBuf, key: &'static str, found: f64, configured: f64 },
+    #[error("interrupted: nothing was written to {}", directory.display())]
+    Interrupted { directory: PathBuf },
     #[error("Ctrl-C cannot be caught: {0}")]
     Signal(std::io::Error),
     #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]
@@ -131,6 +149,7 @@ pub fn main() -> ExitCode {
         Command::Resume(arguments) => resume::run(arguments, reporter),
         Command::Forces(arguments) => forces::run(arguments, reporter),
         Command::Convert(arguments) => convert::run(arguments, reporter),
+        Command::Analyze(arguments) => analyze::run(arguments, reporter),
         Command::Digest(arguments) => digest::run(arguments, reporter),
         Command::Verify(arguments) => verify::run(arguments, reporter),
         Command::Ensemble(arguments) => ensemble::run(arguments, reporter),

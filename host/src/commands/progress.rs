@@ -1,4 +1,4 @@
-//! Progress of a run: a bar on a terminal, a line now and then elsewhere, nothing with `--quiet`.
+//! Progress of a run, and of what goes through frames: a bar on a terminal, a line now and then elsewhere, nothing with `--quiet`.
 
 use super::Reporter;
 use crate::simulation::Simulation;
@@ -22,12 +22,7 @@ pub(super) struct Progress {
 impl Progress {
     pub(super) fn new(simulation: &Simulation, reporter: &Reporter<'_>) -> Self {
         let clock = simulation.engine.clock();
-        let on_terminal = reporter.tells_notes() && std::io::stderr().is_terminal();
-        let bar = on_terminal.then(|| {
-            let style =
-                ProgressStyle::with_template("{wide_bar} {msg}").unwrap_or(ProgressStyle::default_bar());
-            ProgressBar::new(simulation.end()).with_style(style)
-        });
+        let bar = bar(Some(simulation.end()), reporter);
         let now = Instant::now();
         Self { begun: now, shown: now, first_step: clock.step, first_time: clock.time, bar }
     }
@@ -70,6 +65,63 @@ impl Progress {
         };
         format!("step {}, {time}, {rate:.0} steps/s, {} left", clock.step, duration(eta))
     }
+}
+
+/// Progress through the frames of a file.
+pub(super) struct FrameProgress {
+    begun: Instant,
+    shown: Instant,
+    /// Number of frames, if it is known before they are read.
+    total: Option<u64>,
+    bar: Option<ProgressBar>,
+}
+
+impl FrameProgress {
+    pub(super) fn new(total: Option<u64>, reporter: &Reporter<'_>) -> Self {
+        let now = Instant::now();
+        Self { begun: now, shown: now, total, bar: bar(total, reporter) }
+    }
+
+    /// Shows that `frames` are done, if it is time to.
+    pub(super) fn show(&mut self, frames: u64, reporter: &Reporter<'_>) {
+        let interval = if self.bar.is_some() { REFRESH } else { LINE_INTERVAL };
+        if self.shown.elapsed() < interval {
+            return;
+        }
+        self.shown = Instant::now();
+        let rate = frames as f64 / self.begun.elapsed().as_secs_f64();
+        let message = match self.total {
+            Some(total) => {
+                let left = total.saturating_sub(frames) as f64 / rate;
+                format!("frame {frames} of {total}, {rate:.1} frames/s, {} left", duration(left))
+            }
+            None => format!("frame {frames}, {rate:.1} frames/s"),
+        };
+        match &self.bar {
+            Some(bar) => {
+                bar.set_position(frames);
+                bar.set_message(message);
+            }
+            None => reporter.note(&message),
+        }
+    }
+
+    pub(super) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// A bar of that length, or without one, if somebody looks at a terminal.
+fn bar(length: Option<u64>, reporter: &Reporter<'_>) -> Option<ProgressBar> {
+    if !(reporter.tells_notes() && std::io::stderr().is_terminal()) {
+        return None;
+    }
+    let template = if length.is_some() { "{wide_bar} {msg}" } else { "{spinner} {msg}" };
+    let style = ProgressStyle::with_template(template).unwrap_or(ProgressStyle::default_bar());
+    let bar = length.map_or_else(ProgressBar::no_length, ProgressBar::new);
+    Some(bar.with_style(style))
 }
 
 /// A duration as a person would say it.

@@ -14,8 +14,8 @@
 //! ```
 
 use super::FileError;
-use std::io::Write as _;
-use std::path::Path;
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// What the names of files that are being written begin with.
@@ -35,7 +35,61 @@ pub fn is_unfinished(name: &str) -> bool {
 /// # Errors
 /// [`FileError::Write`]; what was at `path` is then still there.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    replace(path, bytes).map_err(|problem| FileError::Write { path: path.to_owned(), problem })
+    replace(path, bytes).map_err(|problem| written(path, problem))
+}
+
+/// A file that grows under another name in the folder of its own, which it gets when it is whole; dropped before that,
+/// it leaves nothing.
+///
+/// ```
+/// use meniscus::files::atomic::AtomicFile;
+///
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("table.csv");
+/// let mut file = AtomicFile::create(&path).unwrap();
+/// file.append("x,y\n").unwrap();
+/// assert!(!path.exists());
+/// file.finish().unwrap();
+/// assert_eq!(std::fs::read(&path).unwrap(), b"x,y\n");
+/// ```
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    file: BufWriter<NamedTempFile>,
+}
+
+impl AtomicFile {
+    /// An empty file that is to be at `path`.
+    ///
+    /// # Errors
+    /// [`FileError::Write`].
+    pub fn create(path: &Path) -> Result<Self, FileError> {
+        let file = temporary_beside(path).map_err(|problem| written(path, problem))?;
+        Ok(Self { path: path.to_owned(), file: BufWriter::new(file) })
+    }
+
+    /// Appends `text`.
+    ///
+    /// # Errors
+    /// [`FileError::Write`].
+    pub fn append(&mut self, text: &str) -> Result<(), FileError> {
+        self.file.write_all(text.as_bytes()).map_err(|problem| written(&self.path, problem))
+    }
+
+    /// Gives the file its name, in the place of what had it, when it is on the disk.
+    ///
+    /// # Errors
+    /// [`FileError::Write`]; what was at its path is then still there.
+    pub fn finish(self) -> Result<(), FileError> {
+        let Self { path, file } = self;
+        let file = file.into_inner().map_err(|error| written(&path, error.into_error()))?;
+        file.as_file().sync_all().map_err(|problem| written(&path, problem))?;
+        take_place(file, &path).map_err(|problem| written(&path, problem))
+    }
+}
+
+fn written(path: &Path, problem: std::io::Error) -> FileError {
+    FileError::Write { path: path.to_owned(), problem }
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {

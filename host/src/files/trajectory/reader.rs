@@ -77,6 +77,17 @@ impl TrajectoryReader {
         self.torus
     }
 
+    /// The number of frames, where the file tells it without being read as a whole.
+    #[must_use]
+    pub fn frames(&self) -> Option<u64> {
+        match &self.source {
+            Source::Gsd(reader, _) => Some(reader.frames()),
+            Source::Npz(reader, _) => Some(reader.frames()),
+            Source::ExtendedXyz(_) | Source::LammpsDump(_) => None,
+            Source::One(_) => Some(1),
+        }
+    }
+
     /// The next frame; none at the end.
     ///
     /// # Errors
