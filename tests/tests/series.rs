@@ -4,8 +4,8 @@
 
 use meniscus::golden::Golden;
 use meniscus::observables::series::Series;
-use meniscus_tests::directories::files;
-use meniscus_tests::program::{Program, SMALL};
+use meniscus_tests::directories::{assert_same_files, files};
+use meniscus_tests::program::{Program, SMALL, errors};
 use std::collections::BTreeMap;
 
 /// A patch that collapses, its rows at the frames of its trajectory.
@@ -167,6 +167,51 @@ fn the_order_of_series_does_not_matter() {
     assert_eq!(tables["minkowski.csv"].lines().count(), 1 + 6 * 3);
     assert_eq!(tables["modes.csv"].lines().count(), 1 + 6 * 5);
     assert_eq!(tables["radii.csv"].lines().count(), 1 + 6 * 2);
+}
+
+/// A run with series that was stopped goes on only with the files that it had.
+#[test]
+fn a_run_misses_its_tables_and_what_they_compare_with() {
+    let program = program();
+    let path = |name: &str| program.folder().join("run").join(name);
+    run(&program, &["disc.toml", "--out", "run", "--until", "0.3"]);
+    let resume = ["resume", "run", "--until", "0.4"];
+    for name in ["start.state", "radii.csv", "modes.csv"] {
+        let whole = std::fs::read(path(name)).unwrap();
+        std::fs::remove_file(path(name)).unwrap();
+        program.refuse(&resume, &[name, "is gone", "put it back"]);
+        std::fs::write(path(name), &whole[..whole.len() - 1]).unwrap();
+        program.refuse(&resume, &[name]);
+        std::fs::write(path(name), whole).unwrap();
+    }
+    let start = std::fs::read(path("start.state")).unwrap();
+    std::fs::write(path("start.state"), std::fs::read(path("final.state")).unwrap()).unwrap();
+    program.refuse(&resume, &["start.state", "not the state that the run began with"]);
+    std::fs::write(path("start.state"), start).unwrap();
+    program.succeed(&resume);
+    run(&program, &["disc.toml", "--out", "whole", "--until", "0.4"]);
+    assert_same_files(&program.folder().join("whole"), &program.folder().join("run"));
+}
+
+/// Ctrl-C leaves neither tables nor the folder made for them.
+#[cfg(unix)]
+#[test]
+fn an_analysis_that_is_interrupted_leaves_nothing() {
+    let program = program();
+    run(&program, &["disc.toml", "--out", "run", "--set", "output.trajectory=0.002"]);
+    let mut command = program.command(&["analyze", "run"]);
+    let mut child = command.stderr(std::process::Stdio::piped()).spawn().unwrap();
+    let folder = program.folder().join("run/trajectory-analysis");
+    while !folder.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it has ended too early");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let told = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(told.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(errors(&output).contains("interrupted: nothing was written"), "{}", errors(&output));
+    assert!(!folder.exists());
 }
 
 #[test]
