@@ -5,8 +5,8 @@
 //! [`run`], which drives the [`engine`] and writes [`files`], [`observables`], [`snapshot`]s and [`golden`] records;
 //! [`verification`] repeats a golden run.
 
-mod bessel;
 pub mod accuracy;
+mod bessel;
 pub mod checkpoint;
 pub mod commands;
 pub mod configuration;

@@ -246,3 +246,9 @@ pub const POLYGON_ROUNDING: f64 = 1e-13;
 /// Error of a disc's area and length by contours over that at half the spacing: 4 at second order. Where nodes lie on the circle
 /// differs from grid to grid.
 pub const QUARTERED: Within = Within(3.3, 4.8);
+
+// Ensembles: tests/ensemble.rs.
+
+/// Mean and standard error of three numbers by two formulas, relative to the largest of them: some ten roundings of
+/// 2⁻⁵³ each.
+pub const ENSEMBLE_STATISTICS: f64 = 2e-15;

@@ -48,3 +48,27 @@ fn the_page_on_golden_runs_can_be_followed() {
     }
     assert!(page.contains(&format!("--tag v{} meniscus", env!("CARGO_PKG_VERSION"))));
 }
+
+#[test]
+fn the_page_on_ensembles_can_be_followed() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../host/docs/ensembles.md");
+    let page = fs::read_to_string(page).unwrap();
+    let program = Program::new(env!("CARGO_BIN_EXE_meniscus-under-test"));
+    let shell = blocks(&page, "sh");
+    assert_eq!(shell.len(), 4);
+    for block in &shell {
+        let output = program.shell(&format!("set -e\n{block}"));
+        assert!(output.status.success(), "{block}: {}", errors(&output));
+    }
+    let table = program.text("lengths/observables.csv");
+    let header = table.lines().next().unwrap();
+    let expected = "system.capillary_length,motion.noise,bin,time,time_over_jeans,runs,dt,dt_error,";
+    assert!(header.starts_with(expected), "{header}");
+    for name in ["members.csv", "observables.csv", "sweep.toml", "runs/"] {
+        assert!(
+            page.contains(&format!("`{name}")) && program.folder().join("lengths").join(name).exists(),
+            "{name}"
+        );
+    }
+    assert_eq!(program.text("lengths/members.csv").matches(",finished,").count(), 12);
+}

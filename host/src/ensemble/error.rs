@@ -51,16 +51,6 @@ pub enum EnsembleError {
     /// A file could not be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Members' tables have other columns.
-    #[error("{}: found columns {found}, the other members have {expected}: remove that run's directory, and it is run anew", path.display())]
-    Columns {
-        /// The table.
-        path: PathBuf,
-        /// Its columns.
-        found: String,
-        /// Those of the tables before it.
-        expected: String,
-    },
     /// A table of a finished run does not hold all of it.
     #[error("{}: found {found}, expected {expected}: the table was cut or changed; remove that run's directory, and it is run anew", path.display())]
     Table {

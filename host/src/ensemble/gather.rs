@@ -7,17 +7,19 @@
 //! one. Rows are in the order of the sweep, then of bins, then of the columns that tell rows apart. Numbers are summed in
 //! the order of seeds.
 
+use super::bins::Bins;
 use super::error::{EnsembleError, MemberError};
 use super::member::{Member, Setting};
-use super::series::{Bins, FIRST_COLUMNS, SERIES, Series};
 use super::standing::{Finished, Standing};
 use super::statistics::Sample;
 use super::sweep::Sweep;
 use super::{MEMBERS, SWEEP};
-use crate::configuration::Start;
+use crate::configuration::{Configuration, Start};
 use crate::files::atomic::write_atomically;
 use crate::files::table::{Table, TableText};
 use crate::files::{FileError, FormatError};
+use crate::observables::series::{HEAD_COLUMNS, Series};
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -68,8 +70,8 @@ pub fn gather_sweep(sweep: &Sweep, directory: &Path) -> Result<Gathered, Ensembl
     let standings: Vec<_> = sweep.members().iter().map(|member| Standing::of(member, directory)).collect();
     let mut tables = vec![directory.join(MEMBERS)];
     write_atomically(&directory.join(MEMBERS), &members_table(sweep, &standings))?;
-    for series in SERIES {
-        let path = directory.join(series.file);
+    for series in Series::ALL {
+        let path = directory.join(series.file_name());
         match series_table(series, sweep, &standings, directory)? {
             Some(text) => {
                 write_atomically(&path, &text)?;
@@ -110,12 +112,11 @@ fn members_table(sweep: &Sweep, standings: &[Result<Standing, MemberError>]) -> 
 
 /// The gathered table of a series; None if no finished member has it.
 fn series_table(
-    series: &Series,
+    series: Series,
     sweep: &Sweep,
     standings: &[Result<Standing, MemberError>],
     directory: &Path,
 ) -> Result<Option<Vec<u8>>, EnsembleError> {
-    let mut values: Option<Vec<String>> = None;
     let mut text: Option<TableText> = None;
     for combination in sweep.combinations() {
         let mut members: Vec<&Member> = combination.iter().collect();
@@ -123,17 +124,14 @@ fn series_table(
         let mut groups = Groups::default();
         for member in members {
             let Some(Ok(Standing::Finished(finished))) = standings.get(member.index - 1) else { continue };
-            let Some(bins) = Bins::of(series, &member.configuration) else { continue };
-            let path = member.directory(directory).join(series.file);
+            let run = member.directory(directory);
+            let configuration = configuration(member, &run)?;
+            let Some(bins) = Bins::of(series, &configuration) else { continue };
+            let path = run.join(series.file_name());
             let table = Table::read(&path)?;
-            let found = value_columns(series, &table, &path)?;
-            let expected = values.get_or_insert_with(|| found.clone());
-            if found != *expected {
-                let [found, expected] = [&found, &*expected].map(|columns| columns.join(","));
-                return Err(EnsembleError::Columns { path, found, expected });
-            }
-            text.get_or_insert_with(|| TableText::new(header(series, sweep, &found)));
-            refuse_cut(&table, bins, finished, member, &path)?;
+            refuse_columns(series, &table, &path)?;
+            text.get_or_insert_with(|| TableText::new(header(series, sweep)));
+            refuse_cut(&table, bins, finished, &configuration, &path)?;
             groups.add(&table, series, bins, member).map_err(|problem| FileError::Read { path, problem })?;
         }
         if let (Some(text), Some(member)) = (&mut text, combination.first()) {
@@ -143,28 +141,34 @@ fn series_table(
     Ok(text.map(TableText::into_bytes))
 }
 
+/// The configuration that the run in `directory` of `member` had: strengths in a file that it starts from change the unit of
+/// its intervals.
+fn configuration<'a>(member: &'a Member, directory: &Path) -> Result<Cow<'a, Configuration>, EnsembleError> {
+    match member.configuration.start {
+        Start::File { .. } => Ok(Cow::Owned(Configuration::read(&directory.join("config.toml"), &[])?)),
+        _ => Ok(Cow::Borrowed(&member.configuration)),
+    }
+}
+
 /// The names of the columns of a gathered table.
-fn header(series: &Series, sweep: &Sweep, values: &[String]) -> Vec<String> {
+fn header(series: Series, sweep: &Sweep) -> Vec<String> {
     let mut columns: Vec<String> = sweep.keys().map(str::to_owned).collect();
     columns.extend(["bin", "time", "time_over_jeans"].map(str::to_owned));
-    columns.extend(series.keys.iter().map(|&key| key.to_owned()));
+    columns.extend(series.key_columns().iter().map(|&key| key.to_owned()));
     columns.push("runs".to_owned());
-    columns.extend(values.iter().flat_map(|name| [name.clone(), format!("{name}_error")]));
+    let values = series.value_columns().iter();
+    columns.extend(values.flat_map(|&name| [name.to_owned(), format!("{name}_error")]));
     columns
 }
 
-/// The names of the columns of values of a run's table.
-fn value_columns(series: &Series, table: &Table, path: &Path) -> Result<Vec<String>, EnsembleError> {
-    let first: Vec<&str> = FIRST_COLUMNS.iter().chain(series.keys).copied().collect();
-    let columns: Vec<&str> = table.columns().collect();
-    match columns.strip_prefix(&first[..]) {
-        Some(values) => Ok(values.iter().map(|&name| name.to_owned()).collect()),
-        None => Err(EnsembleError::Table {
-            path: path.to_owned(),
-            found: format!("columns {}", columns.join(",")),
-            expected: format!("the first to be {}", first.join(",")),
-        }),
+/// Refuses a table whose columns are not those of the series.
+fn refuse_columns(series: Series, table: &Table, path: &Path) -> Result<(), EnsembleError> {
+    let [expected, found] = [series.header(), table.columns().collect::<Vec<_>>().join(",")];
+    if found == expected {
+        return Ok(());
     }
+    let [found, expected] = [found, expected].map(|columns| format!("columns {columns}"));
+    Err(EnsembleError::Table { path: path.to_owned(), found, expected })
 }
 
 /// Refuses a table of a finished run that lacks its last rows.
@@ -172,7 +176,7 @@ fn refuse_cut(
     table: &Table,
     bins: Bins,
     finished: &Finished,
-    member: &Member,
+    configuration: &Configuration,
     path: &Path,
 ) -> Result<(), EnsembleError> {
     let expected = bins.last_due(finished.time);
@@ -181,7 +185,7 @@ fn refuse_cut(
     match found.map(|time| bins.last_due(time)) {
         Some(found) if found == expected => Ok(()),
         // A run that goes on from a file may have ended before anything was due.
-        None if matches!(member.configuration.start, Start::File { .. }) => Ok(()),
+        None if matches!(configuration.start, Start::File { .. }) => Ok(()),
         found => Err(EnsembleError::Table {
             path: path.to_owned(),
             found: found.map_or("no row".to_owned(), |found| format!("a last row of bin {found}")),
@@ -254,15 +258,9 @@ struct Groups(BTreeMap<(u64, Vec<Key>), Group>);
 
 impl Groups {
     /// Takes the rows of another member.
-    fn add(
-        &mut self,
-        table: &Table,
-        series: &Series,
-        bins: Bins,
-        member: &Member,
-    ) -> Result<(), FormatError> {
-        let (first, all) = (FIRST_COLUMNS.len(), table.width());
-        let first_value = first + series.keys.len();
+    fn add(&mut self, table: &Table, series: Series, bins: Bins, member: &Member) -> Result<(), FormatError> {
+        let (first, all) = (HEAD_COLUMNS.len(), table.width());
+        let first_value = first + series.key_columns().len();
         for row in 0..table.len() {
             let time = time(table, row)?;
             let bin = bins.last_due(time);

@@ -13,7 +13,7 @@
 //! ```
 //!
 //! Out: a directory with `sweep.toml`, the run directory of each member below `runs`, `members.csv`, and one gathered
-//! table for each kind of table that runs write ([`gather()`]). Every configuration is checked before anything runs.
+//! table for each [series](crate::observables::series) that runs write ([`gather()`]). Every configuration is checked before anything runs.
 //! A member's directory is named after its configuration, so finished members are kept and unfinished ones go on
 //! ([`run()`]), whoever runs the sweep again, after whatever stop. What is left does not depend on threads, shares, order or
 //! stops; of the gathered tables and `members.csv` not one byte. (`run.json` and checkpoints tell of machines and stops.) A
@@ -48,6 +48,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bins;
 mod error;
 mod gather;
 mod member;
@@ -55,7 +56,6 @@ mod observer;
 mod pool;
 mod read;
 mod selection;
-mod series;
 mod standing;
 mod statistics;
 mod sweep;

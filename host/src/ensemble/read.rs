@@ -1,6 +1,6 @@
 //! A sweep's file: its keys and values, each with its place. What they mean together is decided in `sweep`.
 
-use crate::configuration::keys::{nearest, tolerance};
+use crate::configuration::keys::{TABLES, nearest, tolerance};
 use crate::configuration::{
     ConfigurationError, Place, describe, file_text, line_and_column, preset, repeat, syntax_error,
 };
@@ -109,11 +109,9 @@ impl Source<'_> {
 
     fn unknown(&self, table: &dyn TableLike, key: &str, item: &Item) -> ConfigurationError {
         let place = self.place_of(table, key);
-        let is_of_configuration = crate::configuration::keys::key(key).is_some()
-            || crate::configuration::keys::TABLES.iter().any(|table| table.name == key);
-        if is_of_configuration {
-            let reason = "in a sweep: it is a key of configurations; one value for all members goes into `set`, such as \
-                          set = [\"time.until=3\"], several into [sweep]";
+        if TABLES.iter().any(|table| table.name == key) {
+            let reason = "in a sweep: it belongs to configurations; give one value for all members in `set`, such as \
+                          set = [\"time.until=3\"], several in [sweep]";
             return ConfigurationError::Conflict { place, key: key.to_owned(), reason: reason.to_owned() };
         }
         let found = if item.is_table_like() { nearest(key, ["sweep"], tolerance(key)) } else { None };
