@@ -19,18 +19,17 @@
 //! assert!(std::fs::read(&path).unwrap().starts_with(b"\x89PNG"));
 //! ```
 
+use crate::figures::{font, palette, ticks};
 use crate::files::FileError;
 use crate::files::atomic::write_atomically;
 use image::{ImageFormat, Rgb, RgbImage};
 use meniscus_core::torus::{Position, Torus};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::io::Cursor;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::OnceLock;
 
 /// Width of the whole picture, pixels.
 pub const WIDTH: u32 = 1088;
@@ -72,15 +71,12 @@ const SMALLEST_RADIUS: f64 = 0.5 * DOTS as f64;
 const MOST_INTERVALS: f64 = 6.0;
 
 /// Discs in no cluster, frame and letters.
-const BLACK_INK: Rgb<u8> = Rgb([0, 0, 0]);
-/// Discs in clusters: red as in the paper, and bright enough to have a contrast of 3.7 to black for eyes
-/// without red receptors (after Viénot, Brettel and Mollon 1999).
-const RED_INK: Rgb<u8> = Rgb([228, 72, 32]);
+const BLACK_INK: Rgb<u8> = palette::BLACK.rgb();
+/// Discs in clusters.
+const RED_INK: Rgb<u8> = palette::RED.rgb();
 /// Where nothing is.
-const PAPER: Rgb<u8> = Rgb([255, 255, 255]);
+const PAPER: Rgb<u8> = palette::PAPER.rgb();
 
-/// The name under which the font is known to plotters.
-const FONT: &str = "meniscus-sans";
 /// By how much of their height plotters puts letters of DejaVu Sans above the place asked for: its middle of
 /// a line is not the middle of a digit.
 const RAISED: f64 = 0.216;
@@ -177,7 +173,7 @@ fn fill(dots: &mut RgbImage, columns: Range<i32>, rows: Range<i32>) {
 
 /// Labels of the ticks of an axis, and how far along the axis they stand, dots.
 fn ticks(side: f64) -> impl Iterator<Item = (String, i32)> {
-    let step = tick_step(side);
+    let step = ticks::step(side / MOST_INTERVALS);
     let digits = (-libm::floor(libm::log10(step))).max(0.0) as usize;
     (0..=(side / step) as i32).map(move |number| {
         let value = f64::from(number) * step;
@@ -185,16 +181,11 @@ fn ticks(side: f64) -> impl Iterator<Item = (String, i32)> {
     })
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that cuts `side` into few enough intervals.
-fn tick_step(side: f64) -> f64 {
-    let least = side / MOST_INTERVALS;
-    let decade = libm::pow(10.0, libm::floor(libm::log10(least)));
-    [1.0, 2.0, 5.0].iter().map(|factor| factor * decade).find(|step| *step >= least).unwrap_or(10.0 * decade)
-}
-
 /// Writes the caption, the labels of the ticks, and the titles of the axes.
 fn draw_texts(dots: &mut RgbImage, side: f64, caption: &str) -> Result<(), SnapshotError> {
-    use_font()?;
+    if !font::known() {
+        return Err(SnapshotError::Font);
+    }
     let size = dots.dimensions();
     let area = BitMapBackend::with_buffer(dots, size).into_drawing_area();
     let widest = ticks(side).map(|(label, _)| label).max_by_key(String::len).unwrap_or_default();
@@ -204,7 +195,7 @@ fn draw_texts(dots: &mut RgbImage, side: f64, caption: &str) -> Result<(), Snaps
         write(&area, &label, &level, HPos::Right, (LEFT - LABEL_END, BOTTOM - along))?;
     }
     let middle = SIDE / 2;
-    let level = (FONT, LETTERS).into_font();
+    let level = (font::FAMILY, LETTERS).into_font();
     write(&area, "x / R₀", &level, HPos::Center, (LEFT + middle, size.1 as i32 - TITLE_LINE))?;
     let upright = level.transform(FontTransform::Rotate270);
     write(&area, "y / R₀", &upright, HPos::Center, (TITLE_LINE, TOP + middle))?;
@@ -214,9 +205,9 @@ fn draw_texts(dots: &mut RgbImage, side: f64, caption: &str) -> Result<(), Snaps
 
 /// The font in the size of letters, or smaller so that `words` are no wider than `room` dots.
 fn fitting_font(words: &str, room: i32) -> Result<FontDesc<'static>, SnapshotError> {
-    let (width, _) = (FONT, LETTERS).into_font().box_size(words).map_err(drawing)?;
+    let (width, _) = (font::FAMILY, LETTERS).into_font().box_size(words).map_err(drawing)?;
     let smaller = (f64::from(room) / f64::from(width.max(1))).min(1.0);
-    Ok((FONT, LETTERS * smaller).into_font())
+    Ok((font::FAMILY, LETTERS * smaller).into_font())
 }
 
 /// Writes `words` so that the middle of their digits is at the height of `place`.
@@ -234,13 +225,6 @@ fn write(
     };
     let style = TextStyle::from(font.clone()).color(&BLACK).pos(Pos::new(side, VPos::Center));
     area.draw(&Text::new(words, place, style)).map_err(drawing)
-}
-
-/// Makes the font known to plotters, once.
-fn use_font() -> Result<(), SnapshotError> {
-    static KNOWN: OnceLock<bool> = OnceLock::new();
-    let known = KNOWN.get_or_init(|| register_font(FONT, FontStyle::Normal, dejavu::sans::regular()).is_ok());
-    if *known { Ok(()) } else { Err(SnapshotError::Font) }
 }
 
 fn drawing(error: impl std::fmt::Display) -> SnapshotError {
@@ -313,7 +297,7 @@ mod tests {
     #[test]
     fn ticks_are_few_and_round() {
         for (side, step) in [(500.0, 100.0), (620.0, 200.0), (800.0, 200.0), (65536.0, 20000.0), (2.5, 0.5)] {
-            assert_eq!(tick_step(side), step);
+            assert_eq!(ticks::step(side / MOST_INTERVALS), step);
         }
         let labels: Vec<String> = ticks(2.5).map(|(label, _)| label).collect();
         assert_eq!(labels, ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5"]);

@@ -9,6 +9,7 @@ mod ensemble;
 mod forces;
 mod machinery;
 mod members;
+mod plot;
 mod presets;
 mod progress;
 mod reporter;
@@ -19,6 +20,8 @@ mod verify;
 use crate::configuration::{Configuration, ConfigurationError};
 use crate::engine::EngineError;
 use crate::ensemble::EnsembleError;
+use crate::figures::FigureError;
+use crate::figures::tables::TablesError;
 use crate::files::FileError;
 use crate::golden::GoldenError;
 use crate::observables::series::SeriesError;
@@ -59,6 +62,8 @@ enum Command {
     Verify(verify::Arguments),
     /// Run a sweep, seeds times values of keys, over all processors, and gather tables of means and errors.
     Ensemble(ensemble::Arguments),
+    /// Draw the tables of a run or an ensemble: clusters, energies, Minkowski functionals, modes and others.
+    Plot(plot::Arguments),
     /// List the presets, or print one as a complete configuration.
     Presets(presets::Arguments),
 }
@@ -100,6 +105,9 @@ enum CommandError {
     Ensemble(#[from] EnsembleError),
     #[error("{failed} of {members} members failed; the first is member {index}: {reason}")]
     Members { failed: usize, members: usize, index: usize, reason: String },
+    Figure(#[from] FigureError),
+    #[error(transparent)]
+    Tables(#[from] TablesError),
     #[error(
         "--threads {threads}: --engine core takes one thread; leave --threads out, or take --engine host"
     )]
@@ -153,6 +161,7 @@ pub fn main() -> ExitCode {
         Command::Digest(arguments) => digest::run(arguments, reporter),
         Command::Verify(arguments) => verify::run(arguments, reporter),
         Command::Ensemble(arguments) => ensemble::run(arguments, reporter),
+        Command::Plot(arguments) => plot::run(arguments, reporter),
         Command::Presets(arguments) => presets::run(arguments, reporter),
     };
     match result {

@@ -119,21 +119,20 @@ impl Canvas<'_> {
         if let [(letters, Height::Line)] = parts.as_slice() {
             return self.letters(letters, place, lettering);
         }
-        let width = lettering::width(text, lettering.em);
-        let mut along = match lettering.side {
+        let (parts, width) = lettering::placed(text, lettering.em);
+        let begin = match lettering.side {
             HPos::Left => 0.0,
             HPos::Center => -width / 2.0,
             HPos::Right => -width,
         };
-        for (letters, height) in parts {
-            let rise = height.rise() * lettering.em;
+        for (letters, height, start) in parts.into_iter().filter(|(letters, ..)| !letters.is_empty()) {
+            let (along, rise) = (begin + start, height.rise() * lettering.em);
             let at = match lettering.upright {
                 true => (place.0 - rise, place.1 - along),
                 false => (place.0 + along, place.1 - rise),
             };
             let em = lettering.em * height.size();
             self.letters(&letters, at, Lettering { em, side: HPos::Left, ..lettering })?;
-            along += font::width(&letters, em);
         }
         Ok(())
     }

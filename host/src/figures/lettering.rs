@@ -2,6 +2,9 @@
 
 use super::font;
 
+/// The sign of negative numbers.
+pub(super) const MINUS: &str = "\u{2212}";
+
 /// How a part of a text stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Height {
@@ -49,20 +52,37 @@ pub(super) fn parts(text: &str) -> Vec<(String, Height)> {
             put(&letter.to_string(), Height::Line);
             rest = after;
         } else if let Some((inside, behind)) = after.strip_prefix('{').and_then(|open| open.split_once('}')) {
-            put(inside, height);
+            put(&inside.replace('-', MINUS), height);
             rest = behind;
         } else {
             let next = after.chars().next().map_or(0, char::len_utf8);
-            put(&after[..next], height);
+            put(&after[..next].replace('-', MINUS), height);
             rest = &after[next..];
         }
     }
     parts
 }
 
+/// The parts of a text in letters of `em` pixels, each with how far after the text's begin it starts, and the width of
+/// all, pixels. What is higher stands above what is lower before it. Spaces at the ends of parts are room.
+pub(super) fn placed(text: &str, em: f64) -> (Vec<(String, Height, f64)>, f64) {
+    let (mut placed, mut end) = (Vec::new(), 0.0_f64);
+    let mut lower_start = None;
+    for (letters, height) in parts(text) {
+        let size = em * height.size();
+        let start = if height == Height::Higher { lower_start.unwrap_or(end) } else { end };
+        lower_start = (height == Height::Lower).then_some(end);
+        end = end.max(start + font::width(&letters, size));
+        let shown = letters.trim_start();
+        let room = font::width(&letters[..letters.len() - shown.len()], size);
+        placed.push((shown.trim_end().to_owned(), height, start + room));
+    }
+    (placed, end)
+}
+
 /// Width of a text in letters of `em` pixels, pixels.
 pub(super) fn width(text: &str, em: f64) -> f64 {
-    parts(text).iter().map(|(letters, height)| font::width(letters, em * height.size())).sum()
+    placed(text, em).1
 }
 
 #[cfg(test)]
@@ -75,6 +95,6 @@ mod tests {
         let found: Vec<(&str, Height)> =
             found.iter().map(|(text, height)| (text.as_str(), *height)).collect();
         let (line, lower, higher) = (Height::Line, Height::Lower, Height::Higher);
-        assert_eq!(found, [("n", line), ("c", lower), (" / L", line), ("-2", higher), ("_x^", line)]);
+        assert_eq!(found, [("n", line), ("c", lower), (" / L", line), ("\u{2212}2", higher), ("_x^", line)]);
     }
 }

@@ -35,7 +35,8 @@ mod marks;
 pub mod palette;
 mod plotting;
 mod raster;
-mod ticks;
+pub mod tables;
+pub(crate) mod ticks;
 
 pub use discs::Discs;
 pub use error::FigureError;

@@ -15,6 +15,13 @@ use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ink(pub u8, pub u8, pub u8);
 
+impl Ink {
+    /// The colour of a pixel.
+    pub(crate) const fn rgb(self) -> image::Rgb<u8> {
+        image::Rgb([self.0, self.1, self.2])
+    }
+}
+
 /// Discs in no cluster, frames and letters.
 pub const BLACK: Ink = Ink(0, 0, 0);
 /// Discs in clusters: red as in the paper, and bright enough to have a contrast of 3.7 to black for eyes

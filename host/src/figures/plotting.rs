@@ -28,7 +28,7 @@ const FRAME: f64 = 1.2;
 /// Length of labelled ticks and of small ones, pixels.
 const TICKS: (f64, f64) = (6.0, 3.0);
 /// Distance of ticks that is wanted, of x and y, pixels.
-const DISTANCES: (f64, f64) = (75.0, 48.0);
+const DISTANCES: (f64, f64) = (58.0, 42.0);
 
 /// From where to where an axis goes.
 type Ends = (f64, f64);
@@ -202,13 +202,15 @@ impl<'a> Plot<'a> {
         }
         let pen = Pen { ink, thickness: BAR };
         let [low, _, high] = extent(point);
-        let ends = [low, high].map(|y| self.end(area, point.x, y));
-        canvas.line(&ends.map(|(place, _)| place), pen)?;
-        for ((x, y), _) in ends.into_iter().filter(|(_, there)| *there) {
-            let cap = [(x - CAP).max(area.left), (x + CAP).min(area.right())];
-            canvas.line(&cap.map(|x| (x, y)), pen)?;
+        // One line: a cap if the end is there, down or up the bar, the other cap.
+        let mut path = Vec::with_capacity(6);
+        for (number, y) in [low, high].into_iter().enumerate() {
+            let ((x, y), there) = self.end(area, point.x, y);
+            let cap = if there { CAP } else { 0.0 };
+            let cap = [((x - cap).max(area.left), y), ((x + cap).min(area.right()), y)];
+            path.extend(if number == 0 { [cap[0], cap[1], (x, y)] } else { [(x, y), cap[0], cap[1]] });
         }
-        Ok(())
+        canvas.line(&path, pen)
     }
 
     /// Fills what is between the ends of error bars, trapezium by trapezium inside of the plotting area.

@@ -1,10 +1,10 @@
 //! SVG made pixels.
 
 use super::{FigureError, PNG_SCALE};
-use image::{ImageFormat, Rgb, RgbImage};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{Rgb, RgbImage};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
-use std::io::Cursor;
 use std::sync::Arc;
 
 /// The figure `svg` as PNG, [`PNG_SCALE`] pixels for each of its measures, with the program's own font.
@@ -22,9 +22,10 @@ pub(super) fn png(svg: &str) -> Result<Vec<u8>, FigureError> {
     let picture = RgbImage::from_fn(width, height, |x, y| {
         pixels.pixel(x, y).map_or(Rgb([255; 3]), |pixel| Rgb([pixel.red(), pixel.green(), pixel.blue()]))
     });
-    let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).map_err(raster)?;
-    Ok(bytes.into_inner())
+    let mut bytes = Vec::new();
+    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    picture.write_with_encoder(encoder).map_err(raster)?;
+    Ok(bytes)
 }
 
 fn raster(error: impl std::fmt::Display) -> FigureError {

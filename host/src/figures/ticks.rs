@@ -1,6 +1,7 @@
 //! Where axes have ticks, and what stands at them.
 
 use super::axis::{Axis, Scale};
+use super::lettering::MINUS;
 
 /// The ticks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,10 +46,13 @@ impl Ticks {
         let power = if (-2.0..5.0).contains(&largest) { 0 } else { largest as i32 };
         let digits = (f64::from(power) - libm::floor(libm::log10(step) + SLACK)).clamp(0.0, 15.0) as usize;
         let unit = libm::pow(10.0, f64::from(power));
-        let label = |number: f64| format!("{:.digits$}", number * step / unit + 0.0).replace('-', "\u{2212}");
+        let label = |number: f64| format!("{:.digits$}", number * step / unit + 0.0).replace('-', MINUS);
+        // Parts of a step as round as the step.
+        let parts = if digits_of(step) == 2 { 4.0 } else { 5.0 };
+        let between = numbers(from / step * parts, to / step * parts).filter(|number| number % parts != 0.0);
         Self {
             labelled: numbers(from / step, to / step).map(|number| (number * step, label(number))).collect(),
-            small: Vec::new(),
+            small: between.map(|number| number * step / parts).collect(),
             factor: if power == 0 { String::new() } else { format!("×{}", ten(power)) },
         }
     }
@@ -80,12 +84,13 @@ impl Ticks {
     fn multiples(from: f64, to: f64) -> Self {
         let mut ticks = Self::default();
         let first = libm::floor(libm::log10(from)) as i32;
+        let plain = from >= 1e-3 && to < 1e5;
         for power in first..=first + 2 {
             for digit in 1..10 {
                 let value = f64::from(digit) * libm::pow(10.0, f64::from(power));
                 if !(from * (1.0 - SLACK)..=to * (1.0 + SLACK)).contains(&value) {
                 } else if [1, 2, 5].contains(&digit) {
-                    ticks.labelled.push((value, multiple(digit, power)));
+                    ticks.labelled.push((value, multiple(digit, power, plain)));
                 } else {
                     ticks.small.push(value);
                 }
@@ -108,16 +113,21 @@ pub(crate) fn step(least: f64) -> f64 {
     [1.0, 2.0, 5.0].iter().map(|factor| factor * decade).find(|step| *step >= least).unwrap_or(10.0 * decade)
 }
 
-/// A power of ten.
-fn ten(power: i32) -> String {
-    format!("10^{{{}}}", power.to_string().replace('-', "\u{2212}"))
+/// The first digit of 1, 2 or 5 times a power of ten.
+fn digits_of(step: f64) -> i32 {
+    libm::round(step / libm::pow(10.0, libm::floor(libm::log10(step) + SLACK))) as i32
 }
 
-/// A digit times a power of ten.
-fn multiple(digit: i32, power: i32) -> String {
+/// A power of ten.
+fn ten(power: i32) -> String {
+    format!("10^{{{}}}", power.to_string().replace('-', MINUS))
+}
+
+/// A digit times a power of ten, which is written out if the axis is `plain`.
+fn multiple(digit: i32, power: i32, plain: bool) -> String {
     match power {
-        0..=4 => format!("{digit}{}", "0".repeat(power as usize)),
-        -3..=-1 => format!("0.{}{digit}", "0".repeat((-1 - power) as usize)),
+        0.. if plain => format!("{digit}{}", "0".repeat(power as usize)),
+        _ if plain => format!("0.{}{digit}", "0".repeat((-1 - power) as usize)),
         _ if digit == 1 => ten(power),
         _ => format!("{digit}×{}", ten(power)),
     }
@@ -135,14 +145,8 @@ mod tests {
     fn ticks_are_few_and_round() {
         let linear = Axis::linear("", "");
         assert_eq!(labels(&linear, 0.0, 5.0), ["0", "1", "2", "3", "4", "5"]);
-        assert_eq!(
-            labels(&linear, -0.1, 0.1),
-            ["−0.10", "−0.05", "0.00", "0.05", "0.10"].map(|label| label.replace("−0.00", "0.00"))
-        );
-        assert_eq!(
-            labels(&linear, 0.0, 3e-4),
-            ["0.0", "1.0", "2.0", "3.0"].map(|label| label.replace(".0", "")).to_vec()
-        );
+        assert_eq!(labels(&linear, -0.1, 0.1), ["−0.10", "−0.05", "0.00", "0.05", "0.10"]);
+        assert_eq!(labels(&linear, 0.0, 3e-4), ["0", "1", "2", "3"]);
         assert_eq!(Ticks::new(&linear, (0.0, 3e-4), 5.0).factor, "×10^{−4}");
         assert!(labels(&linear, 1.0, 1.0 + f64::EPSILON).len() < 10);
         assert!(labels(&linear, 0.0, 5e-324).is_empty());
