@@ -57,9 +57,9 @@ impl Axis {
         if self.unit.is_empty() { self.label.clone() } else { format!("{} / {}", self.label, self.unit) }
     }
 
-    /// Whether `value` has a place on an axis of this scale.
+    /// Whether `value` has a place on an axis of this scale: numbers near the largest of f64 have none.
     pub(super) fn holds(&self, value: f64) -> bool {
-        value.is_finite() && (self.scale == Scale::Linear || value > 0.0)
+        value.abs() <= LARGEST && (self.scale == Scale::Linear || value > 0.0)
     }
 
     /// The ends for `values`, those without a place left out.
@@ -106,7 +106,7 @@ impl Axis {
             false if largest > 0.0 => 0.1 * largest,
             false => 1.0,
         };
-        ((least - margin).max(-LARGEST), (most + margin).min(LARGEST))
+        (least - margin, most + margin)
     }
 }
 
@@ -116,5 +116,5 @@ const MARGIN: f64 = 0.04;
 /// Half of the smallest extent, of the largest value, that is drawn as one.
 const LEAST_EXTENT: f64 = 1e-9;
 
-/// The largest end of an axis.
+/// The largest value that has a place.
 const LARGEST: f64 = 1e300;

@@ -36,6 +36,8 @@ pub mod palette;
 mod plotting;
 mod raster;
 pub mod tables;
+#[cfg(test)]
+mod tests;
 pub(crate) mod ticks;
 
 pub use discs::Discs;

@@ -30,6 +30,9 @@ const TICKS: (f64, f64) = (6.0, 3.0);
 /// Distance of ticks that is wanted, of x and y, pixels.
 const DISTANCES: (f64, f64) = (58.0, 42.0);
 
+/// Where what is far outside of the plotting area is taken to be, widths or heights from it.
+const FARTHEST: f64 = 1e4;
+
 /// From where to where an axis goes.
 type Ends = (f64, f64);
 
@@ -130,9 +133,8 @@ impl<'a> Plot<'a> {
     /// Where a value of x and one of y are.
     fn place(&self, area: &Rectangle, x: f64, y: f64) -> Place {
         let part = |axis: &Axis, (from, to): Ends, value: f64| {
-            // Halves, as a difference of two numbers may be too large for one.
-            let (from, to, at) = (axis.place(from) / 2.0, axis.place(to) / 2.0, axis.place(value) / 2.0);
-            (at - from) / (to - from)
+            let (from, to, at) = (axis.place(from), axis.place(to), axis.place(value));
+            ((at - from) / (to - from)).clamp(-FARTHEST, FARTHEST)
         };
         let across = part(&self.chart.x, self.ends.0, x);
         let up = part(&self.chart.y, self.ends.1, y);

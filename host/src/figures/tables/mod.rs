@@ -93,3 +93,74 @@ pub fn figures(directory: &Path) -> Result<Vec<Named>, TablesError> {
     }
     Ok(figures)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Panel;
+    use crate::figures::chart::{Chart, Style};
+
+    fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files {
+            std::fs::write(folder.path().join(name), text).unwrap();
+        }
+        folder
+    }
+
+    fn charts(figure: &Figure) -> Vec<&Chart> {
+        let charts = figure.panels.iter().map(|panel| match panel {
+            Panel::Chart(chart) => chart,
+            Panel::Discs(_) => panic!("discs"),
+        });
+        charts.collect()
+    }
+
+    #[test]
+    fn an_ensembles_values_are_curves_with_errors() {
+        let text = "system.capillary_length,bin,time,time_over_jeans,threshold,runs,pixel_area,pixel_area_error,\
+                    pixel_length,pixel_euler,pixel_shape,area,area_error,length,euler,shape\n\
+                    5,0,0,0,0.14,2,1,0.5,1,1,,1,0.25,1,1,\n\
+                    5,1,1,0.5,0.14,2,3,0.5,1,1,1.5,2,0.125,1,1,1.25\n\
+                    50,0,0,0,0.14,2,1,,1,1,1,1,,1,1,1\n";
+        let folder = folder(&[("minkowski.csv", text)]);
+        let figures = figures(folder.path()).unwrap();
+        assert_eq!(
+            figures.iter().map(|figure| figure.0.as_str()).collect::<Vec<_>>(),
+            ["minkowski", "minkowski_pixels"]
+        );
+        let charts = charts(&figures[0].1);
+        let labels: Vec<&str> = charts[0].series.iter().map(|series| series.label.as_str()).collect();
+        assert_eq!(labels, ["capillary length = 5", "capillary length = 50"]);
+        let second = charts[0].series[0].points[1];
+        assert_eq!((second.x, second.y, second.error), (0.5, 2.0, Some(0.125)));
+        assert!(charts[3].series[0].points[0].y.is_nan());
+    }
+
+    #[test]
+    fn a_runs_configuration_gives_measures_and_theory() {
+        let configuration = crate::configuration::Configuration::from_preset("table-1", &[]).unwrap();
+        let modes = "step,time,time_over_jeans,shell,wavenumber,amplitude,power,log_growth\n\
+                     0,0,0,1,0.0126,1,1,0\n9,9,0.5,1,0.0126,2,4,0.7\n";
+        let folder = folder(&[("config.toml", &configuration.to_toml()), ("modes.csv", modes)]);
+        let figures = figures(folder.path()).unwrap();
+        let chart = charts(&figures[0].1)[0];
+        let line = chart.series.iter().rfind(|series| matches!(series.style, Style::Line(_))).unwrap();
+        let end = line.points.last().unwrap();
+        let instability = configuration.instability().unwrap();
+        let rate = instability.growth_rate(0.0126) * instability.jeans_time;
+        assert!((end.y / end.x - rate).abs() < 1e-12 * rate && rate > 0.5, "{end:?} {rate}");
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let said = |files: &[(&str, &str)]| figures(folder(files).path()).unwrap_err().to_string();
+        let expected = "found no table with rows, expected at least one of observables.csv, minkowski.csv";
+        assert!(said(&[]).contains(expected));
+        assert!(said(&[("radii.csv", "step,time\n")]).contains(expected));
+        let wrong = said(&[("radial_distribution.csv", "step,time,distance\n0,0,1\n")]);
+        assert!(wrong.ends_with("found no column g, expected one of step, time, distance"), "{wrong}");
+        let wrong = said(&[("radial_distribution.csv", "step,time,distance,g\n0,0,1,x\n")]);
+        assert!(wrong.ends_with("line 2: found `x`, expected a number in column g"), "{wrong}");
+    }
+}
