@@ -7,6 +7,7 @@
 //! - [`cold_collapse_radius`], [`collapse_fit`]: radii of a collapsing patch (Eqs. 13, 30)
 //! - [`Pressure`]: equations of state (Eq. 2)
 //! - [`shells`]: cold collapse of concentric shells at any capillary length
+//! - [`continuity`]: the density as a function of place and time (Eq. 6)
 //!
 //! ```
 //! use meniscus::theory::Instability;
@@ -19,6 +20,7 @@
 //! ```
 
 mod cold_collapse;
+pub mod continuity;
 mod linear;
 mod pressure;
 pub mod shells;
