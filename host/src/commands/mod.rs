@@ -105,6 +105,7 @@ enum CommandError {
     Ensemble(#[from] EnsembleError),
     #[error("{failed} of {members} members failed; the first is member {index}: {reason}")]
     Members { failed: usize, members: usize, index: usize, reason: String },
+    #[error(transparent)]
     Figure(#[from] FigureError),
     #[error(transparent)]
     Tables(#[from] TablesError),
