@@ -1,13 +1,11 @@
 """Minkowski functionals of a trajectory against scikit-image and contourpy.
 
-In: an archive of NumPy's and the table `minkowski.csv` of the same run. The density is made anew, from SciPy's quadratic
+In: a run of compare.py, and what keeps count of comparisons. The density is made anew, from SciPy's quadratic
 B-splines. Neither program knows of periodic boxes, so that each measures 1, 2 and 3 boxes beside each other: what
 grows with the square of their number belongs to the inside.
 """
 
-import csv
 import math
-from collections import Counter
 
 import contourpy
 import numpy
@@ -15,6 +13,8 @@ import skimage.measure
 from scipy.interpolate import BSpline
 
 UNITS = 2.0**32
+# Of the density's grid, R0: what output.minkowski_spacing is if nothing is said.
+SPACING = 5.3
 CLOSE_PACKING = 1 / (2 * math.sqrt(3))
 # Areas and lengths are rounded in another order, and so is the density, which moves a contour by the more the flatter it is.
 CONTOUR = 1e-10
@@ -89,50 +89,42 @@ def contours_by_scikit_image(values, threshold):
     return sum(length_of(line) for line in skimage.measure.find_contours(field, threshold))
 
 
-def compare(archive_path, table_path, spacing):
-    """Compares every row of the table; the number of comparisons with each program and the largest difference.
+def levels(run):
+    """For each row of `minkowski.csv` what it is, the row, the density, the threshold, and the units of M0, M1 and M2."""
+    for frame, rows in enumerate(run.rows("minkowski")):
+        grid = max(3, round(run.side / SPACING))
+        cell = run.side / grid
+        values = density(run.bits[frame], run.side, grid)
+        for row in rows:
+            what = f"step {row['step']}, threshold {row['threshold']}"
+            yield what, row, values, float(row["threshold"]) * CLOSE_PACKING, (cell**2, cell, 1)
 
-    Raises AssertionError where they differ.
-    """
-    with numpy.load(archive_path) as archive:
-        side, steps, positions = float(archive["box"]), list(archive["step"]), archive["position_bits"]
-    grid = max(3, round(side / spacing))
-    cell = side / grid
-    compared, largest = Counter(), 0.0
 
-    def same(program, row, column, found, tolerance):
-        nonlocal largest
-        expected = float(row[column])
-        difference = abs(found - expected) / (1 + abs(expected))
-        where = f"step {row['step']}, threshold {row['threshold']}"
-        assert difference <= tolerance, f"{where}: {column} {expected}, by {program} {found}"
-        compared[program] += 1
-        largest = max(largest, difference)
+def functionals(check, what, row, kind, expected, tolerance):
+    """Compares area, length, Euler number and shape factor in the columns of a kind."""
+    area, length, euler = expected
+    for column, value in (("area", area), ("length", length)):
+        check.same(f"{what}, {kind}{column}", float(row[kind + column]), value, tolerance, scale=1 + value)
+    check.same(f"{what}, {kind}euler", float(row[kind + "euler"]), euler, 0)
+    if area == 0 or euler == 0:
+        check.same(f"{what}, {kind}shape", row[kind + "shape"], "", 0)
+    else:
+        shape = length**2 / (4 * math.pi * area * euler)
+        check.same(f"{what}, {kind}shape", float(row[kind + "shape"]), shape, tolerance, scale=1 + abs(shape))
 
-    def shape(row, kind, area, length, euler):
-        column = kind + "shape"
-        if round(euler) == 0 or area == 0:
-            assert row[column] == "", f"step {row['step']}: {column} {row[column]} of a domain that has none"
-        else:
-            same("formula", row, column, length**2 / (4 * math.pi * area * euler), CONTOUR)
 
-    with open(table_path, newline="") as table:
-        rows = [row for row in csv.DictReader(table) if int(row["step"]) in steps]
-    assert rows, f"{table_path}: no row of a frame"
-    units = (cell**2, cell, 1)
-    for row in rows:
-        values = density(positions[steps.index(int(row["step"]))], side, grid)
-        threshold = float(row["threshold"]) * CLOSE_PACKING
-        area, length, euler = pixels_by_scikit_image(values, threshold) * units
-        same("scikit-image", row, "pixel_area", area, PIXEL)
-        same("scikit-image", row, "pixel_length", length, PIXEL)
-        same("scikit-image", row, "pixel_euler", euler, 0)
-        shape(row, "pixel_", area, length, euler)
-        area, length, euler = contours_by_contourpy(values, threshold) * units
-        same("contourpy", row, "area", area, CONTOUR)
-        same("contourpy", row, "length", length, CONTOUR)
-        same("contourpy", row, "euler", euler, 0)
-        shape(row, "", area, length, euler)
+def pixels_scikit_image(run, check):
+    for what, row, values, threshold, units in levels(run):
+        functionals(check, what, row, "pixel_", pixels_by_scikit_image(values, threshold) * units, PIXEL)
+
+
+def contours_contourpy(run, check):
+    for what, row, values, threshold, units in levels(run):
+        functionals(check, what, row, "", contours_by_contourpy(values, threshold) * units, CONTOUR)
+
+
+def contours_scikit_image(run, check):
+    for what, row, values, threshold, (_, cell, _) in levels(run):
         if saddles(values, threshold) == 0:
-            same("scikit-image", row, "length", contours_by_scikit_image(values, threshold) * cell, CONTOUR)
-    return compared, largest
+            length = contours_by_scikit_image(values, threshold) * cell
+            check.same(f"{what}, length", float(row["length"]), length, CONTOUR, scale=1 + length)
