@@ -14,11 +14,11 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// 60 discs, with a checkpoint at every second step, a row at nearly every one, and a frame and rows of
-/// every other series now and then.
+/// 60 discs whose mesh forces are held for a few steps, with a checkpoint at every second step, a row at nearly every one,
+/// and a frame and rows of every other series now and then.
 const CONFIGURATION: &str = "version = 1\nseed = 11\n\
     [system]\nparticles = 60\nbox = 48\ncapillary_strength = 10\ncapillary_length = 30\n\
-    [force]\nmethod = \"pm\"\nmesh_refresh = 0.05\n[mesh]\ngrid = 32\n\
+    [force]\nmethod = \"pm\"\nmesh_refresh = 0.2\n[mesh]\ngrid = 32\n\
     [time]\nuntil = 0.1\n\
     [start]\nkind = \"disc\"\nradius = 20\n\
     [output]\nminkowski = 0.003\nmodes = 0.01\nmodes_shells = 2\nradial_distribution = 0.02\nstructure_factor = 0.05\n\
@@ -102,6 +102,10 @@ fn campaign(folder: &Path, more: &[&str], kills: usize, patience: Duration) -> T
         [&["run", "small.toml", "--every", "3", "--out", out], more].concat()
     }
     assert!(start_and_kill_never(folder, &begin("whole", more)));
+    let told = fs::read(folder.join("whole/run.json")).unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&told).unwrap();
+    let saved = told["force"]["mesh_refresh"]["saved"].as_f64();
+    assert!(saved.unwrap() > 0.4, "no forces are held");
     let machineries: [&[&str]; 3] = [&["--engine", "core"], &["--threads", "1"], &["--threads", "2"]];
     let mut table = Table::default();
     while table.kills < kills {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
+use meniscus::checkpoint::store;
 use meniscus::configuration::Configuration;
 use meniscus::engine::{Kind, Machinery};
 use meniscus::golden::Golden;
@@ -65,6 +66,11 @@ fn to_end(run: Run) -> Outcome {
     outcome
 }
 
+/// What `run.json` of a run tells.
+fn manifest(directory: &Path) -> serde_json::Value {
+    serde_json::from_slice(&std::fs::read(directory.join("run.json")).unwrap()).unwrap()
+}
+
 /// The first golden record of two runs that differs, field by field.
 #[track_caller]
 fn assert_same_records(expected: &Path, found: &Path) {
@@ -79,6 +85,13 @@ fn assert_same_records(expected: &Path, found: &Path) {
 fn assert_same(expected: &Path, found: &Path) {
     assert_same_records(expected, found);
     assert_same_files(expected, found);
+    // What holding mesh forces has saved, over all legs, and how far they were off: a sum that is rounded.
+    let [mut expected, mut found] = [expected, found].map(|run| manifest(run)["force"].take());
+    let errors = [&mut expected, &mut found]
+        .map(|force| force.get_mut("mesh_refresh").and_then(|held| held["measured_error"].take().as_f64()));
+    assert_eq!(expected, found);
+    let [expected, found] = errors.map(Option::unwrap_or_default);
+    assert!((found - expected).abs() <= 1e-12 * expected, "{found} is not {expected}");
 }
 
 /// Stops at every step of a short run and resumes, by turns in every machinery; and in one run stops at every step.
@@ -184,6 +197,40 @@ fn restarts_at_random_steps_leave_the_same_files() {
     }
 }
 
+/// A run that went on after its newest checkpoint, as if it had been killed then.
+#[test]
+fn what_came_after_the_checkpoint_is_dropped() {
+    let folder = fast_folder();
+    for format in ["gsd", "xyz", "lammps", "npz"] {
+        let [whole, killed] = ["whole", "killed"].map(|name| folder.path().join(format!("{format}-{name}")));
+        let format = format!("output.trajectory_format={format}");
+        let overrides = ["time.until=0.1", "output.trajectory=0.01", "force.mesh_refresh=0.1", &format];
+        to_end(begin(&whole, &overrides, 2, HOST));
+        until_step(begin(&killed, &overrides, 2, HOST), 9);
+        let checkpoint = std::fs::read(killed.join(store::CURRENT)).unwrap();
+        until_step(go_on(&killed, THREADS), 23);
+        std::fs::write(killed.join(store::CURRENT), checkpoint).unwrap();
+        let _ = std::fs::remove_file(killed.join(store::PREVIOUS));
+        to_end(go_on(&killed, CORE));
+        assert_same(&whole, &killed);
+    }
+}
+
+#[test]
+fn pictures_are_counted_over_a_restart() {
+    let folder = fast_folder();
+    let path = folder.path().join("run");
+    // Only that of the start is drawn, for pictures take seconds without optimisation.
+    let overrides = ["time.until=0.1", "output.snapshots=1"];
+    until_step(begin(&path, &overrides, 1000, HOST), 2);
+    std::fs::write(path.join("snapshot-001.png"), "of a leg that was killed").unwrap();
+    until_step(go_on(&path, HOST), 4);
+    assert!(path.join("snapshot-000.png").exists() && !path.join("snapshot-001.png").exists());
+    let progress = store::latest(&path).unwrap().checkpoint.progress;
+    let progress: serde_json::Value = serde_json::from_str(&progress).unwrap();
+    assert_eq!(progress["snapshots"]["next"], 1);
+}
+
 #[test]
 fn a_later_end_gives_the_files_of_a_run_that_had_it_from_the_start() {
     let folder = fast_folder();
@@ -219,8 +266,7 @@ fn the_manifest_tells_of_every_leg() {
     until_step(begin(&path, &["time.until=0.1", "output.checkpoint_steps=4"], 10, HOST), 9);
     drop(go_on(&path, HOST));
     let outcome = to_end(go_on(&path, CORE));
-    let told: serde_json::Value =
-        serde_json::from_slice(&std::fs::read(path.join("run.json")).unwrap()).unwrap();
+    let told = manifest(&path);
     let legs: Vec<[String; 4]> = told["legs"]
         .as_array()
         .unwrap()
