@@ -140,6 +140,10 @@ fn a_damaged_checkpoint_is_said_and_the_one_before_is_used() {
         let said = succeed(folder.path(), &["resume", "run", "--max-wall", "0"]);
         assert!(said.contains("run/checkpoint: ") && said.contains("is used instead"), "{said}");
     }
+    // Also where nothing but results is asked for.
+    fs::write(&path, b"").unwrap();
+    let said = succeed(folder.path(), &["resume", "run", "--max-wall", "0", "--quiet"]);
+    assert!(said.ends_with("is used instead\n") && said.lines().count() == 1, "{said}");
     assert_goes_on(folder.path());
     for name in [store::CURRENT, store::PREVIOUS] {
         fs::write(folder.path().join("run").join(name), b"MENISCHK and so on").unwrap();

@@ -3,7 +3,8 @@
 //! | | default | `--verbose` | `--quiet` |
 //! |---|---|---|---|
 //! | results and errors | yes | yes | yes |
-//! | notes: progress, warnings, where results are | yes | yes | no |
+//! | warnings: files that were damaged or gone, and what took their place | yes | yes | yes |
+//! | notes: progress, remarks on what was asked for, where results are | yes | yes | no |
 //! | details: what was chosen, timings | no | yes | no |
 //!
 //! With `--json` standard output holds one JSON object and nothing else; a command that fails leaves it empty. Nobody has
@@ -18,7 +19,7 @@ pub(super) struct Reporting {
     /// Tell more: what was chosen, timings.
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     verbose: bool,
-    /// Tell results and errors only.
+    /// Tell results, warnings and errors only.
     #[arg(short, long, global = true)]
     quiet: bool,
     /// Print the result as one JSON object, and nothing else, on standard output.
@@ -41,6 +42,11 @@ impl<'a> Reporter<'a> {
     /// Whether notes are told at all.
     pub(super) fn tells_notes(&self) -> bool {
         !self.reporting.quiet
+    }
+
+    /// A line on something that nobody asked for and everybody has to know.
+    pub(super) fn warn(&self, line: &str) {
+        say(line);
     }
 
     /// A line for whoever wants to know how it goes.

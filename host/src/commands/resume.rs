@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let deadline = arguments.wall_time.deadline();
     match Run::resume(&arguments.directory, arguments.machinery.read()?, arguments.until)? {
         Resumed::Ready { run, warnings } => {
-            warnings.iter().for_each(|warning| reporter.note(warning));
+            warnings.iter().for_each(|warning| reporter.warn(warning));
             let simulation = run.simulation();
             announce(simulation, &arguments.directory, reporter);
             reporter.note(&format!("goes on after step {}", simulation.engine.clock().step));
