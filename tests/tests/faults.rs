@@ -365,6 +365,19 @@ fn a_device_without_room_is_said_before_the_run() {
     refuse(folder.path(), &run("/proc/run", &[]), &["/proc/run: cannot be written"]);
 }
 
+/// In the folder of processes nobody may make files.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_of_golden_files_that_cannot_be_written_to_is_said_before_anything_is_made() {
+    let folder = folder();
+    refuse(folder.path(), &run("run", &["--golden", "/proc/golden.toml"]), &["/proc/golden.toml: cannot be"]);
+    assert!(!folder.path().join("run").exists());
+    fs::create_dir(folder.path().join("golden")).unwrap();
+    succeed(folder.path(), &run("run", &["--golden", "golden/run.toml", "--max-wall", "0"]));
+    let names = fs::read_dir(folder.path().join("golden")).unwrap().map(|entry| entry.unwrap().file_name());
+    assert_eq!(names.collect::<Vec<_>>(), ["run.toml"]);
+}
+
 #[test]
 fn a_golden_file_is_kept_off_what_the_run_writes() {
     use std::os::unix::ffi::OsStrExt;

@@ -99,6 +99,15 @@ fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     take_place(file, path)
 }
 
+/// Whether [`write_atomically`] may make files in the folder of `path`; leaves none.
+///
+/// # Errors
+/// [`FileError::Write`] with what the system says.
+pub(crate) fn check_folder(path: &Path) -> Result<(), FileError> {
+    let file = temporary_beside(path).and_then(NamedTempFile::close);
+    file.map_err(|problem| FileError::Write { path: path.to_owned(), problem })
+}
+
 /// An empty file of another name in the folder of `path`.
 pub(super) fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();

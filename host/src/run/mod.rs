@@ -46,6 +46,7 @@ pub use unbegun::clear_unbegun;
 use crate::checkpoint::Checkpoint;
 use crate::configuration::Output;
 use crate::engine::MeshReuse;
+use crate::files::atomic::check_folder;
 use crate::files::trajectory::Frame;
 use crate::golden::Golden;
 use crate::observables::clusters::Clusters;
@@ -114,7 +115,8 @@ impl GoldenRequest {
         Self { path: directory.join("golden.toml"), every: GOLDEN_INTERVAL }
     }
 
-    /// Refuses a file that would get in the run's way, that a checkpoint could not name, or that has no folder.
+    /// Refuses a file that would get in the run's way, that a checkpoint could not name, or whose folder is not there or
+    /// cannot be written to.
     fn check(&self, directory: &Path) -> Result<(), RunError> {
         let refused = |reason| Err(RunError::GoldenPlace { path: self.path.clone(), reason });
         if self.path.exists() {
@@ -142,7 +144,7 @@ impl GoldenRequest {
         if !in_run && !folder.is_dir() {
             return refused("the folder does not exist; make it, or name another");
         }
-        Ok(())
+        if in_run { Ok(()) } else { Ok(check_folder(&self.path)?) }
     }
 
     /// What a checkpoint in `directory` has to remember of it.
@@ -194,7 +196,7 @@ impl Run {
     ///
     /// # Errors
     /// A [`RunError`]; a directory that has something in it, or in which another run is at work, and a golden file that
-    /// exists, has no folder, or would have the name of one of the run's own files are refused.
+    /// exists, has no folder that can be written to, or would have the name of one of the run's own files are refused.
     pub fn create(
         simulation: Simulation,
         directory: &Path,
