@@ -33,6 +33,19 @@ fn replay(name: &str, target: Target) {
     assert!(broken.is_empty(), "{name} is broken by {broken:?}");
 }
 
+/// What README of the workspace says does not belong in a corpus.
+#[test]
+fn every_corpus_is_small() {
+    for target in paths(&folder("corpus")) {
+        let files = paths(&target);
+        assert!(files.len() <= 60, "{}: {} files", target.display(), files.len());
+        for file in files {
+            let length = fs::metadata(&file).unwrap().len();
+            assert!(length <= 4096, "{}: {length} bytes", file.display());
+        }
+    }
+}
+
 macro_rules! replay_each {
     ($($name:ident),*) => {
         $(
