@@ -22,8 +22,8 @@ const RINGS: &str = "kind = \"rings\"\nrings = 4\nspacing = 4.5\nper_ring = 6";
 
 fn program() -> Program {
     let program = Program::new(env!("CARGO_BIN_EXE_meniscus-under-test"));
-    program.write("disc.toml", &patch(DISC));
-    program.write("rings.toml", &patch(RINGS));
+    program.write("disc.toml", patch(DISC));
+    program.write("rings.toml", patch(RINGS));
     program
 }
 

@@ -359,6 +359,17 @@ mod tests {
     }
 
     #[test]
+    fn the_shells_of_modes_are_those_that_grow() {
+        let shells = |preset, overrides: &[&str]| quickly(preset, overrides).unwrap().output.modes_shells;
+        // K_c = 0.236 R0⁻¹ and 2π/L = 0.0101 R0⁻¹.
+        assert_eq!(shells("fig-2", &[]), 23);
+        assert_eq!(shells("fig-2", &["system.capillary_length=3"]), FEWEST_SHELLS);
+        assert_eq!(shells("fig-2", &["system.capillary_strength=0"]), FEWEST_SHELLS);
+        assert_eq!(shells("fig-2", &["system.capillary_strength=20"]), MOST_SHELLS);
+        assert_eq!(shells("fig-2", &["output.modes_shells=3"]), 3);
+    }
+
+    #[test]
     fn times_are_in_jeans_times_with_attraction_and_in_diffusion_times_without() {
         let attracted = quickly("table-1", &[]).unwrap();
         assert_near(attracted.end_time(), 5.0 * 17.8825, 1e-4);
