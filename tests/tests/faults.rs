@@ -324,7 +324,8 @@ fn a_file_that_is_cut_under_way_is_noticed() {
             told(
                 &output,
                 Some(2),
-                &[name, "found 0 bytes", "the file was changed while the run was writing it"],
+                // Not always 0: the cut may fall between a look at the file and a frame.
+                &[name, "bytes, the run has written", "the file was changed while the run was writing it"],
             );
             assert!(run.join("final.state").exists());
         }
