@@ -70,5 +70,5 @@ fn the_page_on_ensembles_can_be_followed() {
             "{name}"
         );
     }
-    assert_eq!(program.text("lengths/members.csv").matches(",finished,").count(), 12);
+    assert_eq!(program.text("lengths/members.csv").matches(",finished,").count(), 8);
 }

@@ -1,6 +1,7 @@
 //! Which rows of several runs belong together: those of the same multiple of an interval.
 
-use crate::configuration::Configuration;
+use super::standing::Finished;
+use crate::configuration::Output;
 use crate::observables::series::Series;
 use crate::run::Schedule;
 use crate::simulation::time_units;
@@ -14,9 +15,9 @@ pub(super) struct Bins {
 
 impl Bins {
     /// The bins of a run's table; None if it has no rows.
-    pub(super) fn of(series: Series, configuration: &Configuration) -> Option<Self> {
-        let interval = configuration.output.interval(series);
-        (interval > 0.0).then(|| Self { interval: interval * configuration.time_scale() })
+    pub(super) fn of(series: Series, output: &Output, run: &Finished) -> Option<Self> {
+        let interval = output.interval(series);
+        (interval > 0.0).then(|| Self { interval: interval * run.time_unit })
     }
 
     /// The last k that was due at `time` (R0²/D): that of a row written then, which is the row of the first step at or

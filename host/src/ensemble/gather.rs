@@ -19,7 +19,6 @@ use crate::files::atomic::write_atomically;
 use crate::files::table::{Table, TableText};
 use crate::files::{FileError, FormatError};
 use crate::observables::series::{HEAD_COLUMNS, Series};
-use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -124,14 +123,12 @@ fn series_table(
         let mut groups = Groups::default();
         for member in members {
             let Some(Ok(Standing::Finished(finished))) = standings.get(member.index - 1) else { continue };
-            let run = member.directory(directory);
-            let configuration = configuration(member, &run)?;
-            let Some(bins) = Bins::of(series, &configuration) else { continue };
-            let path = run.join(series.file_name());
+            let Some(bins) = Bins::of(series, &member.configuration.output, finished) else { continue };
+            let path = member.directory(directory).join(series.file_name());
             let table = Table::read(&path)?;
             refuse_columns(series, &table, &path)?;
             text.get_or_insert_with(|| TableText::new(header(series, sweep)));
-            refuse_cut(&table, bins, finished, &configuration, &path)?;
+            refuse_cut(&table, bins, finished, &member.configuration, &path)?;
             groups.add(&table, series, bins, member).map_err(|problem| FileError::Read { path, problem })?;
         }
         if let (Some(text), Some(member)) = (&mut text, combination.first()) {
@@ -139,15 +136,6 @@ fn series_table(
         }
     }
     Ok(text.map(TableText::into_bytes))
-}
-
-/// The configuration that the run in `directory` of `member` had: strengths in a file that it starts from change the unit of
-/// its intervals.
-fn configuration<'a>(member: &'a Member, directory: &Path) -> Result<Cow<'a, Configuration>, EnsembleError> {
-    match member.configuration.start {
-        Start::File { .. } => Ok(Cow::Owned(Configuration::read(&directory.join("config.toml"), &[])?)),
-        _ => Ok(Cow::Borrowed(&member.configuration)),
-    }
 }
 
 /// The names of the columns of a gathered table.

@@ -63,7 +63,8 @@ impl Standing {
         if found != digest {
             return Err(damaged(format!("found digest {found}, run.json says that it was {digest}")));
         }
-        Ok(Self::Finished(Finished { step, time, digest: found }))
+        let time_unit = summary["jeans_time"].as_f64().unwrap_or(1.0);
+        Ok(Self::Finished(Finished { step, time, time_unit, digest: found }))
     }
 }
 
@@ -74,6 +75,9 @@ pub struct Finished {
     pub step: u64,
     /// Time, R0²/D.
     pub time: f64,
+    /// What one unit of `time.until` and of intervals was, R0²/D: Jeans' time, in which strengths in a file that the run
+    /// started from count, or 1 without attraction.
+    pub time_unit: f64,
     /// SHA-256 of its last state.
     pub digest: String,
 }
