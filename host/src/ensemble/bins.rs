@@ -17,7 +17,7 @@ impl Bins {
     /// The bins of a run's table; None if it has no rows.
     pub(super) fn of(series: Series, output: &Output, run: &Finished) -> Option<Self> {
         let interval = output.interval(series);
-        (interval > 0.0).then(|| Self { interval: interval * run.time_unit })
+        (interval > 0.0).then_some(Self { interval: interval * run.time_unit })
     }
 
     /// The last k that was due at `time` (R0²/D): that of a row written then, which is the row of the first step at or
