@@ -5,7 +5,7 @@ use super::chart::Chart;
 use super::clip::Rectangle;
 use super::legend::Entries;
 use super::palette::BLACK;
-use super::plotting::{self, Plot};
+use super::plotting::{self, Ends, Plot};
 use super::{Figure, FigureError, Legend, Panel, font, lettering};
 use plotters::style::text_anchor::HPos;
 
@@ -221,7 +221,7 @@ impl<'a> Cell<'a> {
     fn new(
         figure: &Figure,
         panel: &'a Panel,
-        common: (Option<(f64, f64)>, Option<(f64, f64)>),
+        common: (Option<Ends>, Option<Ends>),
         said: (bool, bool),
         own_legend: bool,
         letter: &str,

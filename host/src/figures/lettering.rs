@@ -23,8 +23,8 @@ impl Height {
     pub(super) fn rise(self) -> f64 {
         match self {
             Self::Line => 0.0,
-            Self::Lower => -0.2,
-            Self::Higher => 0.38,
+            Self::Lower => -0.22,
+            Self::Higher => 0.42,
         }
     }
 }

@@ -34,7 +34,7 @@ const DISTANCES: (f64, f64) = (58.0, 42.0);
 const FARTHEST: f64 = 1e4;
 
 /// From where to where an axis goes.
-type Ends = (f64, f64);
+pub(super) type Ends = (f64, f64);
 
 /// A chart whose axes are fixed.
 pub(super) struct Plot<'a> {

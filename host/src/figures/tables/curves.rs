@@ -9,9 +9,6 @@ use crate::files::table::Table;
 /// The most points that have markers.
 const MOST_MARKERS: usize = 45;
 
-/// The most times, shells or groups of discs that are drawn side by side.
-pub(super) const MOST_CURVES: usize = 7;
-
 /// The column that numbers the times of a table, and tells rows of one time from those of others.
 pub(super) fn time_key(table: &Table) -> &'static str {
     if table.column("bin").is_some() { "bin" } else { "step" }
@@ -80,9 +77,9 @@ pub(super) fn over_time(
     Ok(curve(label, group.colour, group.number, points))
 }
 
-/// At most [`MOST_CURVES`] of the texts, evenly from the first to the last.
-pub(super) fn some<'a>(all: &[&'a str]) -> Vec<&'a str> {
-    let count = all.len().min(MOST_CURVES);
+/// At most `most` of the texts, evenly from the first to the last.
+pub(super) fn some<'a>(all: &[&'a str], most: usize) -> Vec<&'a str> {
+    let count = all.len().min(most);
     let place = |number: usize| number * (all.len() - 1) / (count - 1).max(1);
     (0..count).filter_map(|number| all.get(place(number)).copied()).collect()
 }

@@ -52,14 +52,14 @@ fn figure(
     title: &str,
 ) -> Result<Figure, FormatError> {
     let known = groups.iter().all(|group| group.configuration.is_some());
-    let area = if known { Axis::linear("M_0/L^2", "") } else { Axis::linear("M_0", "R_0^2") };
-    let length = if known { Axis::linear("M_1/L^2", "R_0^{-1}") } else { Axis::linear("M_1", "R_0") };
-    let euler = if known { Axis::linear("M_2/L^2", "R_0^{-2}") } else { Axis::linear("M_2", "") };
+    let area = if known { Axis::linear("M_0 / L^2", "") } else { Axis::linear("M_0", "R_0^2") };
+    let length = if known { Axis::linear("M_1 R_0 / L^2", "") } else { Axis::linear("M_1", "R_0") };
+    let euler = if known { Axis::linear("M_2 R_0^2 / L^2", "") } else { Axis::linear("M_2", "") };
     let quantities = [
         ("area", "area", area, known),
         ("length", "boundary length", length, known),
         ("euler", "Euler characteristic", euler, known),
-        ("shape", "shape", Axis::linear("ϕ = M_1^2/(4πM_0M_2)", ""), false),
+        ("shape", "shape", Axis::linear("ϕ = M_1^2 / (4π M_0 M_2)", ""), false),
     ];
     let mut panels = Vec::new();
     for (column, title, y, per_area) in quantities {

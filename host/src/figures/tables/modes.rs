@@ -1,12 +1,15 @@
 //! Growth of density modes by shells of wavenumbers, with Eq. 10 (Fig. 2).
 
 use super::Named;
-use super::curves::{curve, points, some, time_axis, times};
+use super::curves::{curve, points, time_axis, times};
 use super::groups::{Group, rounded};
 use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Series};
 use crate::figures::{Figure, Panel};
 use crate::files::FormatError;
+
+/// The most shells that are drawn: the slowest waves.
+const MOST_SHELLS: usize = 7;
 
 /// The figure of `modes.csv`: a panel for each group.
 pub(super) fn figures(groups: &[Group]) -> Result<Vec<Named>, FormatError> {
@@ -19,7 +22,8 @@ pub(super) fn figures(groups: &[Group]) -> Result<Vec<Named>, FormatError> {
 fn chart(group: &Group) -> Result<Chart, FormatError> {
     let y = Axis::linear("⟨ln |ρ_k(t)|/|ρ_k(0)|⟩", "");
     let mut chart = Chart::new(&group.label, time_axis(std::slice::from_ref(group)), y);
-    let shells = some(&group.table.distinct("shell")?);
+    let mut shells = group.table.distinct("shell")?;
+    shells.truncate(MOST_SHELLS);
     let instability = group.configuration.as_ref().and_then(crate::configuration::Configuration::instability);
     let (mut lines, mut extremes) = (Vec::new(), (f64::INFINITY, f64::NEG_INFINITY));
     for (number, shell) in shells.iter().enumerate() {

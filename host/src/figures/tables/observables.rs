@@ -33,8 +33,7 @@ const fn quantity(column: &'static str, title: &'static str, label: &'static str
 
 /// The clusters' quantities.
 fn clusters(known: bool) -> [Quantity; 4] {
-    let count =
-        Quantity { unit: "R_0^{-2}", per: Per::Area, ..quantity("clusters", "number density", "n_c/L^2") };
+    let count = Quantity { per: Per::Area, ..quantity("clusters", "number density", "n_c R_0^2 / L^2") };
     [
         if known { count } else { quantity("clusters", "number", "n_c") },
         quantity("mean_cluster_size", "mean size", "S"),
@@ -46,13 +45,12 @@ fn clusters(known: bool) -> [Quantity; 4] {
 /// The energies.
 fn energies(known: bool) -> [Quantity; 2] {
     let energy = |column, title, label, label_per_disc| Quantity {
-        unit: "k_BT",
         per: Per::Disc,
         ..quantity(column, title, if known { label_per_disc } else { label })
     };
     [
-        energy("capillary_energy", "capillary", "U_{cap}", "U_{cap}/N"),
-        energy("repulsive_energy", "repulsive", "U_{rep}", "U_{rep}/N"),
+        energy("capillary_energy", "capillary", "U_{cap} / k_BT", "U_{cap} / (N k_BT)"),
+        energy("repulsive_energy", "repulsive", "U_{rep} / k_BT", "U_{rep} / (N k_BT)"),
     ]
 }
 

@@ -8,6 +8,9 @@ use crate::figures::chart::{Chart, Colour, Dash, Series, Style};
 use crate::figures::{Figure, Panel};
 use crate::files::FormatError;
 
+/// The most times that are drawn.
+const MOST_TIMES: usize = 6;
+
 /// The figure of `radial_distribution.csv`.
 pub(super) fn radial_distribution(groups: &[Group]) -> Result<Vec<Named>, FormatError> {
     let axes = (Axis::linear("r", "R_0"), Axis::linear("g(r)", ""));
@@ -31,7 +34,7 @@ fn profiles(
     let mut panels = Vec::with_capacity(groups.len());
     for group in groups {
         let mut chart = Chart::new(&group.label, x.clone(), y.clone());
-        let moments = some(&group.table.distinct(time_key(&group.table))?);
+        let moments = some(&group.table.distinct(time_key(&group.table))?, MOST_TIMES);
         for (number, moment) in moments.iter().enumerate() {
             let table = group.table.with(time_key(&group.table), moment)?;
             let time = times(&table)?.into_iter().flatten().next().unwrap_or(0.0);

@@ -9,6 +9,9 @@ use crate::figures::{Figure, Panel};
 use crate::files::FormatError;
 use crate::theory::cold_collapse_radius;
 
+/// The most rings or shells that are drawn: all of Fig. 12.
+const MOST_RINGS: usize = 9;
+
 /// Points of a line of theory: the root at its end is steep.
 const LINE_POINTS: u32 = 200;
 
@@ -25,7 +28,7 @@ fn chart(group: &Group) -> Result<Chart, FormatError> {
     // Eq. 13 is in Jeans' times.
     let theory = x.unit == "T";
     let mut chart = Chart::new(&group.label, x, Axis::linear("R(t)", "R_0"));
-    let rings = some(&group.table.distinct("group")?);
+    let rings = some(&group.table.distinct("group")?, MOST_RINGS);
     for (number, ring) in rings.iter().enumerate() {
         let table = group.table.with("group", ring)?;
         let times = times(&table)?;
