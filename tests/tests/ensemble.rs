@@ -311,7 +311,7 @@ fn mean_and_error(values: &[f64]) -> [Option<f64>; 2] {
             let error = (squares(&[one - two, two - three, three - one]) / 18.0).sqrt();
             [Some((three + one + two) / 3.0), Some(error)]
         }
-        _ => panic!("more than three seeds"),
+        _ => unreachable!("three seeds"),
     }
 }
 

@@ -67,7 +67,7 @@ fn replaced(text: &str, key: &Key, value: &dyn Fn(Option<&str>) -> String) -> (O
 
 /// Values of that kind, most of which are in range.
 fn values(kind: Kind) -> BoxedStrategy<String> {
-    let number = || prop_oneof![(-6.0..4.0).prop_map(|power| 10_f64.powf(power)), -20.0..20.0];
+    let number = || prop_oneof![(-6.0..4.0).prop_map(|power| libm::pow(10.0, power)), -20.0..20.0];
     match kind {
         Kind::Whole { least, most } => prop_oneof![least..=most.min(least.saturating_add(99)), least..=most]
             .prop_map(|value| value.to_string())
@@ -111,7 +111,7 @@ fn nudged(value: &str) -> Option<String> {
 /// Whether two texts are of the same value of `key`: apart from numbers, each has one text.
 fn is_same(key: &Key, one: &str, other: &str) -> bool {
     // Strengths are multiples of this.
-    let unit = if key.name == "system.strengths" { 2_f64.powi(-20) } else { 0.0 };
+    let unit = if key.name == "system.strengths" { 1.0 / 1_048_576.0 } else { 0.0 };
     let settled = |number: f64| if unit > 0.0 { (number / unit).round_ties_even() } else { number };
     let numbers = |text: &str| -> Option<Vec<f64>> {
         let parts = text.trim_matches(['[', ']']).split(", ");
