@@ -30,7 +30,7 @@ use super::lines::Lines;
 use super::state::State;
 use super::{FileError, FormatError, read_with};
 use crate::strengths;
-use ::csv::{ByteRecord, ReaderBuilder, Trim};
+use csv_core::{Reader, ReaderBuilder, Terminator};
 use meniscus_core::torus::{Position, Torus};
 use std::fmt::Write as _;
 use std::io::BufRead;
@@ -60,16 +60,16 @@ pub fn parse(input: impl BufRead, torus: &Torus) -> Result<State, FormatError> {
     let mut lines = Lines::new(input);
     let mut columns = None;
     let mut rows = Rows::default();
-    let mut record = ByteRecord::new();
+    let mut values = Values::new();
     while let Some(text) = lines.next()? {
         if text.is_empty() || text.starts_with('#') {
             continue;
         }
-        split(text, &mut record)?;
+        values.split(text);
         let line = lines.number();
         match &columns {
-            None => columns = Some(Columns::named(line, &record)?),
-            Some(columns) => columns.add_row(torus, line, &record, &mut rows)?,
+            None => columns = Some(Columns::named(line, &values)?),
+            Some(columns) => columns.add_row(torus, line, &values, &mut rows)?,
         }
     }
     if columns.is_none() {
@@ -82,22 +82,49 @@ pub fn parse(input: impl BufRead, torus: &Torus) -> Result<State, FormatError> {
 }
 
 /// The values in one line of text.
-fn split(text: &str, record: &mut ByteRecord) -> Result<(), FormatError> {
-    let mut reader = ReaderBuilder::new()
-        .has_headers(false)
-        .trim(Trim::All)
-        .buffer_capacity(text.len())
-        .from_reader(text.as_bytes());
-    reader.read_byte_record(record).map_err(|error| FormatError::Input(error.into()))?;
-    Ok(())
+struct Values {
+    reader: Reader,
+    /// The values without their quotes, one behind the other.
+    bytes: Vec<u8>,
+    /// Where each of them ends.
+    ends: Vec<usize>,
+    count: usize,
+}
+
+impl Values {
+    fn new() -> Self {
+        // Lines are taken apart already: a carriage return within one is part of a value, so that nothing is lost.
+        let reader = ReaderBuilder::new().terminator(Terminator::Any(b'\n')).build();
+        Self { reader, bytes: Vec::new(), ends: Vec::new(), count: 0 }
+    }
+
+    /// Takes the values out of `text`, a line.
+    fn split(&mut self, text: &str) {
+        // Every line fits, so that the reader never stops before the end of one.
+        let enough = self.bytes.len().max(text.len() + 1);
+        self.bytes.resize(enough, 0);
+        self.ends.resize(enough, 0);
+        self.reader.reset();
+        let (_, _, bytes, ends) = self.reader.read_record(text.as_bytes(), &mut self.bytes, &mut self.ends);
+        // No more of it is the end of the last value.
+        let (_, _, _, last) = self.reader.read_record(&[], &mut self.bytes[bytes..], &mut self.ends[ends..]);
+        self.count = ends + last;
+    }
+
+    /// The value in `column` without blanks around it.
+    fn get(&self, column: usize) -> Option<&[u8]> {
+        let ends = self.ends.get(..self.count)?;
+        let start = column.checked_sub(1).map_or(Some(0), |before| ends.get(before).copied())?;
+        self.bytes.get(start..*ends.get(column)?).map(<[u8]>::trim_ascii)
+    }
 }
 
 impl Columns {
-    /// Finds the columns by the names in `record`.
-    fn named(line: u64, record: &ByteRecord) -> Result<Self, FormatError> {
+    /// Finds the columns by the names in `values`.
+    fn named(line: u64, values: &Values) -> Result<Self, FormatError> {
         let column = |name: &str| {
-            let mut places = record.iter().enumerate().filter(|(_, value)| *value == name.as_bytes());
-            let first = places.next().map(|(place, _)| place);
+            let mut places = (0..values.count).filter(|&place| values.get(place) == Some(name.as_bytes()));
+            let first = places.next();
             if places.next().is_some() {
                 let found = format!("two columns {name}");
                 return Err(FormatError::Line { line, found, expected: "one".to_owned() });
@@ -120,18 +147,12 @@ impl Columns {
     }
 
     /// Reads one row.
-    fn add_row(
-        &self,
-        torus: &Torus,
-        line: u64,
-        record: &ByteRecord,
-        rows: &mut Rows,
-    ) -> Result<(), FormatError> {
+    fn add_row(&self, torus: &Torus, line: u64, values: &Values, rows: &mut Rows) -> Result<(), FormatError> {
         let value = |column: usize| {
-            record.get(column).and_then(|value| std::str::from_utf8(value).ok()).ok_or_else(|| {
+            values.get(column).and_then(|value| std::str::from_utf8(value).ok()).ok_or_else(|| {
                 FormatError::Line {
                     line,
-                    found: format!("{} values", record.len()),
+                    found: format!("{} values", values.count),
                     expected: format!("at least {}, as the columns named", column + 1),
                 }
             })
