@@ -2,6 +2,7 @@
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+#![allow(clippy::print_stderr, reason = "a test says what it could not try")]
 
 use meniscus::checkpoint::store;
 use meniscus_tests::directories::{assert_same_files, fast_folder};
@@ -358,10 +359,67 @@ fn a_full_disk_loses_nothing_that_was_written() {
     assert_goes_on(folder.path());
 }
 
+/// Runs `script`, in which `$meniscus` is the program, where it may mount what `mounts` does, and nobody else sees it. None
+/// where the system does not let it.
+#[cfg(target_os = "linux")]
+fn with_mounts(folder: &Path, mounts: &str, script: &str) -> Option<Output> {
+    const REFUSED: i32 = 77;
+    let script = format!("{mounts} || exit {REFUSED}\n{script}");
+    let mut command = Command::new("unshare");
+    command.current_dir(folder).args(["--map-root-user", "--mount", "bash", "-c", &script]);
+    let output = command.env("meniscus", env!("CARGO_BIN_EXE_meniscus-under-test")).output().ok()?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if output.status.code() == Some(REFUSED) || said.starts_with("unshare: ") {
+        eprintln!("nothing can be mounted here: {said}");
+        return None;
+    }
+    Some(output)
+}
+
 #[test]
-fn a_device_without_room_is_said_before_the_run() {
+#[cfg(target_os = "linux")]
+fn a_full_file_system_loses_nothing_that_was_written() {
     let folder = folder();
-    // Every write to it fails for want of room; the golden file is written beside it and cannot be.
+    let until = ["--until", "0.4"];
+    succeed(folder.path(), &run("whole", &until));
+    fs::create_dir(folder.path().join("run")).unwrap();
+    let script = format!(
+        "$meniscus {} 2>said; echo $? >code
+         mount -o remount,size=16m run && $meniscus resume run && cp -r run copy",
+        run("run", &until).join(" ")
+    );
+    let Some(output) = with_mounts(folder.path(), "mount -t tmpfs -o size=64k none run", &script) else {
+        return;
+    };
+    told(&output, Some(0), &[]);
+    let [said, code] = ["said", "code"].map(|name| fs::read_to_string(folder.path().join(name)).unwrap());
+    assert_eq!(code, "2\n", "{said}");
+    let last = said.lines().last().unwrap();
+    for part in ["error: run/", "cannot be written: No space left on device", "`meniscus resume run` goes on"]
+    {
+        assert!(last.contains(part), "{part} is not in {said}");
+    }
+    assert_same_files(&folder.path().join("whole"), &folder.path().join("copy"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_directory_that_cannot_be_written_to_is_said_and_left_as_it_is() {
+    let folder = folder();
+    stopped_and_whole(folder.path());
+    let mounts = "mount --bind run run && mount -o remount,bind,ro run";
+    for command in ["resume run", "run small.toml --out run/inside"] {
+        let Some(output) = with_mounts(folder.path(), mounts, &format!("$meniscus {command}")) else {
+            return;
+        };
+        told(&output, Some(2), &["run/", "cannot be written: Read-only file system"]);
+    }
+    assert_goes_on(folder.path());
+}
+
+#[test]
+fn places_where_nothing_can_be_made_are_said_before_the_run() {
+    let folder = folder();
     refuse(folder.path(), &run("run", &["--golden", "/dev/full"]), &["/dev/full", "exists"]);
     refuse(folder.path(), &run("/proc/run", &[]), &["/proc/run: cannot be written"]);
 }

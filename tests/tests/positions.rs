@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
 
 use meniscus::start;
+use meniscus::strengths::ONE;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_tests::long_tests;
 use meniscus_tests::program::{Program, errors};
@@ -54,6 +55,12 @@ fn good_files_are_read() {
             _ => usual,
         };
         assert_eq!(state.positions, expected, "{}", path.display());
+        let strengths = match path.file_name().unwrap().to_str().unwrap() {
+            "strengths.csv" => Some(vec![-ONE, ONE / 2]),
+            "two-with-strengths.state" => Some(vec![ONE, -ONE / 2]),
+            _ => None,
+        };
+        assert_eq!(state.strengths, strengths, "{}", path.display());
     }
 }
 

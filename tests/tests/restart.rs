@@ -231,6 +231,23 @@ fn pictures_are_counted_over_a_restart() {
     assert_eq!(progress["snapshots"]["next"], 1);
 }
 
+/// A checkpoint is there at the start and at the end, and by the wall time between two of them.
+#[test]
+fn checkpoints_are_written_by_the_wall_time() {
+    let folder = fast_folder();
+    let written = |name: &str, minutes: &str| {
+        let path = folder.path().join(name);
+        let setting = format!("output.checkpoint_minutes={minutes}");
+        let steps = to_end(begin(&path, &["time.until=0.05", &setting], 1000, HOST)).clock.step;
+        (manifest(&path)["checkpoints"].as_u64().unwrap(), steps)
+    };
+    assert_eq!(written("none", "0").0, 2);
+    assert_eq!(written("rare", "1000").0, 2);
+    let (checkpoints, steps) = written("always", "1e-12");
+    assert!(steps > 3, "{steps} steps");
+    assert_eq!(checkpoints, 1 + steps);
+}
+
 #[test]
 fn a_later_end_gives_the_files_of_a_run_that_had_it_from_the_start() {
     let folder = fast_folder();

@@ -21,7 +21,7 @@ const SMALL: &str = "version = 1\nseed = 3\n\
     [force]\nmethod = \"pm\"\nmesh_refresh = 0.1\n[mesh]\ngrid = 16\n[time]\nuntil = 0.5\n\
     [output]\nobservables = 0.01\ntrajectory = 0.023\nsnapshots = 0\ncheckpoint_minutes = 0\n";
 
-/// The keys that README names.
+/// The keys that change no step.
 const FREE: [&str; 3] = ["time.until", "output.checkpoint_steps", "output.checkpoint_minutes"];
 
 type Files = BTreeMap<String, Vec<u8>>;

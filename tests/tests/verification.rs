@@ -192,7 +192,7 @@ fn a_flipped_bit_is_found_in_its_step_and_its_stage() {
 
 #[test]
 fn what_is_first_is_named_and_not_what_follows() {
-    // A flip of the mesh force reaches the total force, the displacement and the positions too.
+    // A flip of the pair force reaches the total force, and perhaps what comes after it.
     let mut faulty = Faulty::new(&parameters(), &discs(), Stage::PairForce, 3);
     let mut sound = engine(Kind::Core, 1, &parameters());
     let mut traces = [Trace::default(), Trace::default()];
@@ -201,21 +201,10 @@ fn what_is_first_is_named_and_not_what_follows() {
         Steps::traced_step(&mut sound, &mut traces[1]).unwrap();
     }
     let differ = |stage: Stage| traces[0].of(stage) != traces[1].of(stage);
-    assert_eq!(
-        Stage::ALL.map(differ),
-        [
-            false,
-            false,
-            false,
-            true,
-            false,
-            true,
-            false,
-            false,
-            differ(Stage::Displacement),
-            differ(Stage::Positions)
-        ]
-    );
+    // Whether the displacement is rounded to another one is chance.
+    let differing = Stage::ALL.into_iter().take_while(|&stage| stage != Stage::Displacement);
+    let differing: Vec<Stage> = differing.filter(|&stage| differ(stage)).collect();
+    assert_eq!(differing, [Stage::PairForce, Stage::TotalForce]);
     assert_eq!(traces[0].first_difference(&traces[1]).unwrap().stage, Stage::PairForce);
 }
 
