@@ -194,6 +194,27 @@ fn verify_says_equal_or_names_what_differs() {
 }
 
 #[test]
+fn tables_are_drawn_where_one_says() {
+    let program = program();
+    let folder = program.folder();
+    fs::create_dir(folder.join("tables")).unwrap();
+    let table = "step,time,time_over_jeans,distance,g\n0,0,0,2.5,1.25\n0,0,0,3.5,0.75\n";
+    program.write("tables/radial_distribution.csv", table);
+    let object = program.succeed(&["plot", "tables", "--out", "drawn/here", "--json"]);
+    let object: serde_json::Value = serde_json::from_str(&object).unwrap();
+    let names = ["svg", "png"].map(|ending| format!("drawn/here/radial_distribution.{ending}"));
+    assert_eq!(object["figures"], serde_json::json!(names));
+    assert!(program.text(&names[0]).ends_with("</svg>\n"));
+    assert!(program.read(&names[1]).starts_with(b"\x89PNG"));
+    assert!(!folder.join("tables/figures").exists());
+    program.write("tables/radial_distribution.csv", table.replace(",g\n", ",h\n"));
+    let expected = ["tables/radial_distribution.csv: ", "no column g"];
+    program.refuse(&["plot", "tables"], &expected);
+    program.refuse(&["plot", "nowhere"], &["nowhere: found no table with rows"]);
+    assert!(!folder.join("tables/figures").exists() && !folder.join("nowhere").exists());
+}
+
+#[test]
 fn forces_are_printed_for_every_disc_of_a_file() {
     let program = program();
     fs::write(program.folder().join("two.csv"), "id,x,y\n1,22,20\n0,20,20\n").unwrap();

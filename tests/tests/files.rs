@@ -375,7 +375,7 @@ fn extended_xyz_says_where_and_what_is_wrong() {
             "line 2: found Properties=`species:S:1`, expected name:type:count with pos:R:3",
         ),
         ("1\nstep=-1\nX 1 1 0\n", "line 2: found step=`-1`, expected a whole number"),
-        ("1\ntime=-1\nX 1 1 0\n", "line 2: found time=`-1`, expected a time from 0, R0²/D"),
+        ("1\ntime=-1\nX 1 1 0\n", "line 2: found time=`-1`, expected a time from 0, R0^2/D"),
         ("1\n\nX 1\n", "line 3: found `X 1`, expected at least 3 values, as Properties says"),
         ("1\n\nX 1 8 0\n", "line 3, column y: found `8`, expected a number of R0 in [0, 8)"),
         (

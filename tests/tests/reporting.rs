@@ -41,6 +41,25 @@ fn a_run_tells_little_more_or_nothing_but_the_result() {
     assert!(told.is_ascii(), "{told}");
 }
 
+/// What is not on every keyboard is not on every terminal.
+#[test]
+fn help_is_plain_text() {
+    let program = program();
+    let commands = program.succeed(&["--help"]);
+    let (_, commands) = commands.split_once("Commands:\n").unwrap();
+    let commands: Vec<&str> =
+        commands.lines().map_while(|line| line.strip_prefix("  ")?.split(' ').next()).collect();
+    assert!(commands.len() > 9 && commands.contains(&"ensemble"), "{commands:?}");
+    for command in commands {
+        let help = program.succeed(&["help", command]);
+        assert!(help.is_ascii() && help.lines().count() > 3, "{help}");
+    }
+    for list in [&["presets"][..], &["presets", "fig-12"]] {
+        let text = program.succeed(list);
+        assert!(text.is_ascii(), "{text}");
+    }
+}
+
 #[test]
 fn levels_stand_before_or_after_the_command_and_exclude_each_other() {
     let program = program();

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct Arguments {
     #[command(flatten)]
     source: Source,
-    /// Positions in [0, L), R0: CSV with columns x,y and perhaps id, a state file, or a trajectory (the last frame).
+    /// Positions in [0, L), R0: CSV with columns x,y and perhaps id and strength, a state file, or a trajectory (the last
+    /// frame).
     /// Their number replaces `system.particles`, and strengths in the file those of the configuration.
     #[arg(long, value_name = "FILE")]
     positions: PathBuf,

@@ -11,7 +11,7 @@ pub(super) struct Arguments {
     /// The directory of a run that was stopped, or is to go further.
     #[arg(value_name = "DIR")]
     directory: PathBuf,
-    /// Another end, in Jeans' times (in R0²/D without attraction).
+    /// Another end, in Jeans' times (in R0^2/D without attraction).
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: Option<f64>,
     #[command(flatten)]

@@ -22,10 +22,10 @@ pub(super) struct Arguments {
     /// Directory for the results; it must be new or empty. By default one below `runs`.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of start and noise, 0 to 2⁶³ − 1.
+    /// Seed of start and noise, 0 to 2^63 - 1.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// When to end, in Jeans' times (in R0²/D without attraction).
+    /// When to end, in Jeans' times (in R0^2/D without attraction).
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: Option<f64>,
     #[command(flatten)]

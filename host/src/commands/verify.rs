@@ -100,12 +100,15 @@ impl Search {
     fn describe(&self, last: u64, agreed: Option<u64>) -> String {
         let first = agreed.unwrap_or(self.begun) + 1;
         let [this, other] = self.engines;
-        let right = |yes: bool| if yes { "gives" } else { "does not give either" };
+        let right = |record: &str| match self.other_is_right {
+            true => format!("gives {record}"),
+            false => format!("does not give {record} either"),
+        };
         match &self.contradiction {
             Some(contradiction) => format!(
                 "this program contradicts itself, --engine {this} and --engine {other}: {contradiction}\n\
-                 --engine {other} {} the record of step {last}\n",
-                right(self.other_is_right)
+                 --engine {other} {}\n",
+                right(&format!("the record of step {last}"))
             ),
             None if last <= self.begun => "the state that the run starts from differs already\n".to_owned(),
             None if first >= last => format!(
@@ -180,4 +183,43 @@ fn print_stages(
         serde_json::json!({ "step": step, "stages": stages.collect::<Vec<_>>() })
     })?;
     Ok(Verdict::Ok)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::{Stage, StageDifference};
+    use crate::verification::Parting;
+
+    fn search(contradiction: Option<Contradiction>, begun: u64) -> Search {
+        Search { engines: ["host", "core"], contradiction, begun, other_is_right: true }
+    }
+
+    /// The example of the page on golden runs.
+    #[test]
+    fn a_contradiction_is_told_as_the_documentation_shows() {
+        let values = [Some(-1503), Some(-1504)];
+        let parting = Parting::Stage(StageDifference { stage: Stage::PairForce, index: 15, values });
+        let found = search(Some(Contradiction { step: 53, parting }), 40);
+        let said = found.describe(60, Some(40));
+        let page = include_str!("../../docs/golden-runs.md");
+        let page: String = page.lines().map(|line| format!("{}\n", line.trim_start())).collect();
+        assert!(page.contains(&said), "{said}");
+        assert_eq!(said.lines().count(), 2);
+        let wrong = Search { other_is_right: false, ..found };
+        assert!(
+            wrong
+                .describe(60, Some(40))
+                .ends_with("--engine core does not give the record of step 60 either\n")
+        );
+    }
+
+    #[test]
+    fn where_the_difference_can_lie_is_told() {
+        let said = |begun, last, agreed| search(None, begun).describe(last, agreed);
+        assert!(said(0, 0, None).starts_with("the state that the run starts from differs"));
+        assert!(said(0, 60, Some(40)).contains("lies in steps 41 to 60: "));
+        assert!(said(0, 60, None).contains("lies in steps 1 to 60: "));
+        assert!(said(0, 41, Some(40)).contains("up to step 41, which is the first that differs"));
+    }
 }

@@ -149,7 +149,7 @@ const LONGEST_QUOTE: usize = 120;
 /// The text on one line, its end left out if long.
 fn quoted(text: &str) -> String {
     match text.char_indices().nth(LONGEST_QUOTE) {
-        Some((end, _)) => format!("{}…", one_line(&text[..end])),
+        Some((end, _)) => format!("{}...", one_line(&text[..end])),
         None => one_line(text),
     }
 }

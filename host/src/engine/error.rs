@@ -12,7 +12,7 @@ pub enum EngineError {
     #[error("the run cannot be set up: {}", init_message(*.0))]
     Init(InitError),
     /// A step was refused; the state is as it was.
-    #[error("the step after step {} at time {} R0²/D is refused: {}", .1.step, time_from_units(.1.time), step_message(*.0))]
+    #[error("the step after step {} at time {} R0^2/D is refused: {}", .1.step, time_from_units(.1.time), step_message(*.0))]
     Step(StepError, Clock),
     /// The threads could not be started.
     #[error("{0} threads cannot be started; ask for fewer by --threads")]
@@ -52,7 +52,7 @@ fn init_message(error: InitError) -> String {
         InitError::NoParticles => "there is no disc; at least 1 is needed".into(),
         InitError::TooManyParticles { capacity } => format!("too many discs; at most {capacity} fit"),
         InitError::Id { id } => {
-            format!("id {id} is out of range or given twice; ids are 0 to n − 1, each once")
+            format!("id {id} is out of range or given twice; ids are 0 to n - 1, each once")
         }
     }
 }
@@ -70,7 +70,7 @@ fn step_message(error: StepError) -> &'static str {
              separate overlapping discs or raise motion.max_displacement"
         }
         StepError::TimeOverflow => {
-            "time would exceed 2²⁴ R0²/D, or the number of steps 2⁶⁴ − 1: a run cannot go on longer"
+            "time would exceed 2^24 R0^2/D, or the number of steps 2^64 - 1: a run cannot go on longer"
         }
         StepError::HalfBox => "a disc would move by half a box; lower motion.max_step",
     }

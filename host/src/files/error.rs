@@ -93,6 +93,6 @@ const MOST_QUOTED: usize = 40;
 /// Text of a file as a message shows it: quoted, escaped, shortened.
 pub(super) fn quoted(text: &str) -> String {
     let shown: String = text.chars().take(MOST_QUOTED).collect();
-    let more = if shown.len() < text.len() { "…" } else { "" };
+    let more = if shown.len() < text.len() { "..." } else { "" };
     format!("`{}{more}`", shown.escape_debug())
 }

@@ -248,7 +248,7 @@ impl Header {
                 }
                 "time" => {
                     header.time = time_units(value)
-                        .ok_or_else(|| refused(key, value, "a time from 0, R0²/D".to_owned()))?;
+                        .ok_or_else(|| refused(key, value, "a time from 0, R0^2/D".to_owned()))?;
                 }
                 "time_over_jeans" => header.time_over_jeans = finite(value),
                 "dt" => header.time_step = finite(value).unwrap_or(0.0),
