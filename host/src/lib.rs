@@ -17,6 +17,7 @@ pub mod files;
 pub mod golden;
 pub mod memory;
 pub mod observables;
+pub mod reproduce;
 pub mod run;
 pub mod simulation;
 pub mod snapshot;

@@ -13,6 +13,7 @@ mod plot;
 mod presets;
 mod progress;
 mod reporter;
+mod reproduce;
 mod resume;
 mod run;
 mod verify;
@@ -25,6 +26,7 @@ use crate::figures::tables::TablesError;
 use crate::files::FileError;
 use crate::golden::GoldenError;
 use crate::observables::series::SeriesError;
+use crate::reproduce::ReproduceError;
 use crate::run::RunError;
 use crate::simulation::SimulationError;
 use clap::{Args, Parser, Subcommand};
@@ -64,6 +66,8 @@ enum Command {
     Ensemble(ensemble::Arguments),
     /// Draw the tables of a run or an ensemble: clusters, energies, Minkowski functionals, modes and others.
     Plot(plot::Arguments),
+    /// Make figures of the paper again, with error bars, and a report of what it says and what is found.
+    Reproduce(reproduce::Arguments),
     /// List the presets, or print one as a complete configuration.
     Presets(presets::Arguments),
 }
@@ -97,6 +101,10 @@ enum CommandError {
     Engine(#[from] EngineError),
     #[error(transparent)]
     Run(#[from] RunError),
+    #[error(transparent)]
+    Reproduce(#[from] ReproduceError),
+    #[error("{campaign}, member {index}: {reason}")]
+    Reproduction { campaign: String, index: usize, reason: String },
     #[error(transparent)]
     Golden(#[from] GoldenError),
     #[error(transparent)]
@@ -163,6 +171,7 @@ pub fn main() -> ExitCode {
         Command::Verify(arguments) => verify::run(arguments, reporter),
         Command::Ensemble(arguments) => ensemble::run(arguments, reporter),
         Command::Plot(arguments) => plot::run(arguments, reporter),
+        Command::Reproduce(arguments) => reproduce::run(arguments, reporter),
         Command::Presets(arguments) => presets::run(arguments, reporter),
     };
     match result {

@@ -42,6 +42,7 @@ pub(crate) mod ticks;
 
 pub use discs::Discs;
 pub use error::FigureError;
+pub(crate) use raster::png;
 
 use crate::files::atomic::write_atomically;
 use chart::Chart;

@@ -8,7 +8,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 use std::sync::Arc;
 
 /// The figure `svg` as PNG, [`PNG_SCALE`] pixels for each of its measures, with the program's own font.
-pub(super) fn png(svg: &str) -> Result<Vec<u8>, FigureError> {
+pub(crate) fn png(svg: &str) -> Result<Vec<u8>, FigureError> {
     let mut fonts = fontdb::Database::new();
     fonts.load_font_source(fontdb::Source::Binary(Arc::new(dejavu::sans::regular())));
     let options = Options { fontdb: Arc::new(fonts), ..Options::default() };

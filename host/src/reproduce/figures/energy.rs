@@ -1,0 +1,98 @@
+//! Ours: the potential energy in time. Cold discs run downhill in it: Σ v·F = Σ F² > 0.
+
+use super::{Built, drawn, looks, time_axis};
+use crate::figures::axis::Axis;
+use crate::figures::chart::{Chart, Colour, Dash, Series as Drawn};
+use crate::figures::{Figure, Panel};
+use crate::observables::estimate::Estimate;
+use crate::observables::series::Series;
+use crate::reproduce::ReproduceError;
+use crate::reproduce::campaign::{Campaign, REACHES};
+use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
+use crate::reproduce::finding::{Criterion, Finding};
+use crate::reproduce::statistics::{Curves, average};
+
+/// Energy per disc in time, and how far that of cold rings ever rises.
+///
+/// # Errors
+/// [`ReproduceError`].
+pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
+    let mut built = Built::default();
+    let axis = || Axis::linear("[E(t) − E(0)] / N", "k_BT");
+    let mut panels = Vec::new();
+    for (short, title) in [(true, "short-ranged"), (false, "long-ranged")] {
+        let mut chart = Chart::new(title, time_axis(), axis());
+        for look in looks(short) {
+            if let Some(curves) = change(&evidence.reach(&look.reach))? {
+                chart.series.push(drawn(
+                    &look.reach.label(evidence.size),
+                    look.colour,
+                    look.style,
+                    &curves,
+                    1.0,
+                ));
+            }
+        }
+        panels.push(Panel::Chart(chart));
+    }
+    let rings = evidence.of(Campaign::Rings);
+    let mut chart = Chart::new("cold rings", time_axis(), axis());
+    for (index, run) in rings.iter().enumerate() {
+        let points = energies(run)?;
+        let first = points.first().map_or(0.0, |point| point.1);
+        let colour = Colour::ordered(index, rings.len());
+        let label = super::collapse::ring_label(run.length());
+        let points = points.iter().map(|(time, energy)| (*time, energy - first));
+        chart.series.push(Drawn::line(&label, colour, Dash::numbered(index), points));
+        let quantity = format!("largest rise of the energy between rows over its whole fall, {label}");
+        let criterion = Criterion::at_most(1e-3);
+        built.findings.push(
+            Finding::new(quantity, "(not in the paper) cold discs run downhill", criterion)
+                .measured(rise(&energies(run)?)),
+        );
+    }
+    panels.push(Panel::Chart(chart));
+    let caption = "Potential energy per disc, capillary and repulsive, since the start.";
+    built.draw("energy", caption, &Figure::new("", panels))?;
+    for reach in &REACHES {
+        let fallen = change(&evidence.reach(reach))?
+            .and_then(|curves| curves.jackknife(|curve| average(curve, 4.9, 5.1)));
+        let quantity = format!("energy per disc won by 5 T, {} (kBT)", reach.label(evidence.size));
+        let paper = "(not in the paper) attraction wins over entropy";
+        built.findings.push(Finding::new(quantity, paper, Criterion::at_most(0.0)).measured(fallen));
+    }
+    Ok(built)
+}
+
+/// Energy per disc since time zero.
+fn change(runs: &[&FinishedRun]) -> Result<Option<Curves>, ReproduceError> {
+    if runs.is_empty() {
+        return Ok(None);
+    }
+    let mut columns = Vec::new();
+    for run in runs {
+        let points = energies(run)?;
+        let first = points.first().map_or(0.0, |point| point.1);
+        columns.push(points.iter().map(|(_, energy)| Some(energy - first)).collect());
+    }
+    // The times are those of any column.
+    let times = curves(runs, Series::Observables, "capillary_energy", None)?.means();
+    Ok(Some(Curves::new(times.into_iter().map(|(time, _)| time).collect(), columns)))
+}
+
+/// Time and energy per disc, kBT.
+fn energies(run: &FinishedRun) -> Result<Vec<(f64, f64)>, ReproduceError> {
+    let count = run.configuration.system.particles as f64;
+    let capillary = run.column(Series::Observables, "capillary_energy", None)?;
+    let repulsive = run.column(Series::Observables, "repulsive_energy", None)?;
+    let both = capillary.into_iter().zip(repulsive);
+    Ok(both.filter_map(|((time, first), (_, second))| Some((time, (first? + second?) / count))).collect())
+}
+
+/// The largest rise between two rows, of the whole fall.
+fn rise(points: &[(f64, f64)]) -> Option<Estimate> {
+    let (first, last) = (points.first()?.1, points.last()?.1);
+    let steps = points.windows(2).filter_map(|pair| Some(pair.last()?.1 - pair.first()?.1));
+    let largest = steps.fold(0.0, f64::max);
+    (first > last).then(|| Estimate { value: largest / (first - last), error: 0.0 })
+}

@@ -1,0 +1,277 @@
+//! Findings: what the paper says beside what was measured, and the verdict that follows from the two.
+//!
+//! A verdict is never written down: it is computed from numbers by a [`Criterion`], which says what would count as the
+//! paper's claim. So the same report from other seeds may come to other verdicts.
+//!
+//! ```
+//! use meniscus::observables::estimate::Estimate;
+//! use meniscus::reproduce::finding::{Criterion, Finding, Verdict};
+//!
+//! let finding = Finding::new("A0 of ring 7", "1.15", Criterion::equals(1.15, 0.01))
+//!     .measured(Some(Estimate { value: 1.1498, error: 0.0004 }));
+//! assert_eq!(finding.verdict(), Verdict::Reproduced);
+//! assert_eq!(finding.ours(), "1.14980 ± 0.00040");
+//! ```
+
+use crate::observables::estimate::Estimate;
+
+/// Standard errors that a measured value may lie outside of what counts, unless a criterion says otherwise.
+const STANDARD_ERRORS: f64 = 2.0;
+
+/// What a comparison came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// What was measured is what the paper says.
+    Reproduced,
+    /// It is not.
+    NotReproduced,
+    /// Two statements of the paper exclude each other.
+    PaperInconsistent,
+    /// There are too few finished runs to tell.
+    Undecided,
+}
+
+impl Verdict {
+    /// All of them, in the order of reports.
+    pub const ALL: [Self; 4] =
+        [Self::Reproduced, Self::NotReproduced, Self::PaperInconsistent, Self::Undecided];
+
+    /// How reports call it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::NotReproduced => "not reproduced",
+            Self::PaperInconsistent => "paper's text inconsistent",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// What counts as the paper's claim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Criterion {
+    /// The value lies between two bounds, either of which may be infinite.
+    Between {
+        /// The least value that counts.
+        least: f64,
+        /// The largest.
+        most: f64,
+        /// Standard errors it may lie outside.
+        standard_errors: f64,
+        /// The largest standard error with which the comparison says anything.
+        resolution: f64,
+    },
+    /// Two numbers that the paper gives, or that follow from what it gives, are the same within their rounding.
+    Consistent {
+        /// One of them.
+        printed: f64,
+        /// The other.
+        implied: f64,
+        /// How far rounding may part them.
+        rounding: f64,
+    },
+}
+
+impl Criterion {
+    /// `expected`, give or take `tolerance`: the rounding of what is printed and what else is not known of it.
+    #[must_use]
+    pub fn equals(expected: f64, tolerance: f64) -> Self {
+        Self::between(expected - tolerance, expected + tolerance)
+    }
+
+    /// At least `least` and at most `most`.
+    #[must_use]
+    pub fn between(least: f64, most: f64) -> Self {
+        let resolution = 0.5 * (most - least);
+        Self::Between { least, most, standard_errors: STANDARD_ERRORS, resolution }
+    }
+
+    /// At least `least`.
+    #[must_use]
+    pub fn at_least(least: f64) -> Self {
+        Self::between(least, f64::INFINITY)
+    }
+
+    /// At most `most`.
+    #[must_use]
+    pub fn at_most(most: f64) -> Self {
+        Self::between(f64::NEG_INFINITY, most)
+    }
+
+    /// Two numbers of the paper that are to be the same.
+    #[must_use]
+    pub const fn consistent(printed: f64, implied: f64, rounding: f64) -> Self {
+        Self::Consistent { printed, implied, rounding }
+    }
+
+    /// The same with this many standard errors, and no more than `resolution` of one.
+    #[must_use]
+    pub const fn with_errors(self, standard_errors: f64, resolution: f64) -> Self {
+        match self {
+            Self::Between { least, most, .. } => Self::Between { least, most, standard_errors, resolution },
+            Self::Consistent { .. } => self,
+        }
+    }
+
+    /// The verdict on a measured value; None if nothing was measured.
+    #[must_use]
+    pub fn verdict(&self, measured: Option<Estimate>) -> Verdict {
+        match *self {
+            Self::Consistent { printed, implied, rounding } if (printed - implied).abs() <= rounding => {
+                Verdict::Reproduced
+            }
+            Self::Consistent { .. } => Verdict::PaperInconsistent,
+            Self::Between { least, most, standard_errors, resolution } => {
+                let Some(Estimate { value, error }) = measured else { return Verdict::Undecided };
+                let margin = standard_errors * error;
+                if value.is_nan() || error.is_nan() || error > resolution {
+                    Verdict::Undecided
+                } else if (least - margin..=most + margin).contains(&value) {
+                    Verdict::Reproduced
+                } else {
+                    Verdict::NotReproduced
+                }
+            }
+        }
+    }
+
+    /// What counts, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match *self {
+            Self::Consistent { printed, implied, rounding } => {
+                format!("{} and {} differ by at most {}", plain(printed), plain(implied), plain(rounding))
+            }
+            Self::Between { least, most, standard_errors, .. } => {
+                let range = match (least.is_finite(), most.is_finite()) {
+                    (true, true) => format!("{} to {}", plain(least), plain(most)),
+                    (true, false) => format!("at least {}", plain(least)),
+                    _ => format!("at most {}", plain(most)),
+                };
+                format!("{range}, or up to {standard_errors} s.e. outside")
+            }
+        }
+    }
+}
+
+/// A statement of the paper, what was measured of it, and how the two are compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// What is measured, with its unit.
+    pub quantity: String,
+    /// What the paper says of it.
+    pub paper: String,
+    /// What was measured, in the same unit; an error that is not a number is that of a single run.
+    pub measured: Option<Estimate>,
+    /// What counts as the paper's claim.
+    pub criterion: Criterion,
+}
+
+impl Finding {
+    /// A finding of which nothing was measured.
+    #[must_use]
+    pub fn new(quantity: impl Into<String>, paper: impl Into<String>, criterion: Criterion) -> Self {
+        Self { quantity: quantity.into(), paper: paper.into(), measured: None, criterion }
+    }
+
+    /// The same with what was measured.
+    #[must_use]
+    pub fn measured(self, measured: Option<Estimate>) -> Self {
+        Self { measured, ..self }
+    }
+
+    /// What follows.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        self.criterion.verdict(self.measured)
+    }
+
+    /// What was measured, in words.
+    #[must_use]
+    pub fn ours(&self) -> String {
+        self.measured.map_or_else(|| "–".to_owned(), with_error)
+    }
+}
+
+/// A number and its standard error, both with the digits that leave two of the error.
+#[must_use]
+pub fn with_error(estimate: Estimate) -> String {
+    let Estimate { value, error } = estimate;
+    if error.is_nan() {
+        return format!("{} (one run)", plain(value));
+    }
+    if error == 0.0 || !error.is_finite() {
+        return plain(value);
+    }
+    let digits = (1.0 - libm::floor(libm::log10(error))).clamp(0.0, 17.0) as usize;
+    format!("{value:.digits$} ± {error:.digits$}")
+}
+
+/// A number with four significant digits and no more zeros than it needs.
+#[must_use]
+pub fn plain(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = libm::floor(libm::log10(value.abs()));
+    if !(-4.0..6.0).contains(&exponent) {
+        return format!("{value:.2e}");
+    }
+    let digits = (3.0 - exponent).max(0.0) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(criterion: Criterion, value: f64, error: f64) -> Verdict {
+        criterion.verdict(Some(Estimate { value, error }))
+    }
+
+    #[test]
+    fn a_value_within_its_bounds_or_their_errors_is_reproduced() {
+        let delay = Criterion::equals(1.16, 0.01);
+        assert_eq!(verdict(delay, 1.165, 0.0), Verdict::Reproduced);
+        assert_eq!(verdict(delay, 1.175, 0.003), Verdict::Reproduced);
+        assert_eq!(verdict(delay, 1.175, 0.002), Verdict::NotReproduced);
+        assert_eq!(verdict(delay, 1.14, 0.0), Verdict::NotReproduced);
+    }
+
+    #[test]
+    fn bounds_on_one_side_only_hold_there() {
+        assert_eq!(verdict(Criterion::at_least(0.9), 4.0, 0.1), Verdict::Reproduced);
+        assert_eq!(verdict(Criterion::at_least(0.9), 0.6, 0.1), Verdict::NotReproduced);
+        assert_eq!(verdict(Criterion::at_most(0.9), -4.0, 0.1), Verdict::Reproduced);
+        assert_eq!(verdict(Criterion::at_most(0.9), 1.2, 0.1), Verdict::NotReproduced);
+    }
+
+    #[test]
+    fn what_is_not_known_well_enough_is_undecided() {
+        let delay = Criterion::equals(1.16, 0.01);
+        assert_eq!(delay.verdict(None), Verdict::Undecided);
+        assert_eq!(verdict(delay, 1.16, f64::NAN), Verdict::Undecided);
+        assert_eq!(verdict(delay, 1.4, 0.2), Verdict::Undecided);
+        assert_eq!(verdict(delay.with_errors(2.0, 0.3), 1.4, 0.2), Verdict::Reproduced);
+    }
+
+    #[test]
+    fn numbers_of_the_paper_that_exclude_each_other_are_named() {
+        let density = Criterion::consistent(10.0, 0.01, 0.005);
+        assert_eq!(density.verdict(None), Verdict::PaperInconsistent);
+        assert_eq!(Criterion::consistent(17.9, 17.88, 0.05).verdict(None), Verdict::Reproduced);
+    }
+
+    #[test]
+    fn numbers_have_the_digits_that_their_errors_leave() {
+        assert_eq!(with_error(Estimate { value: 1.1498, error: 0.0123 }), "1.150 ± 0.012");
+        assert_eq!(with_error(Estimate { value: 2500.0, error: 13.0 }), "2500 ± 13");
+        assert_eq!(with_error(Estimate { value: 0.25, error: 0.0 }), "0.25");
+        assert_eq!(with_error(Estimate { value: 0.25, error: f64::NAN }), "0.25 (one run)");
+        assert_eq!(plain(1.234_56e-7), "1.23e-7");
+        assert_eq!(plain(500.0), "500");
+        assert_eq!(plain(-0.123_456), "-0.1235");
+    }
+}

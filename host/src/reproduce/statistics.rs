@@ -1,0 +1,263 @@
+//! Curves measured in several runs: means with standard errors, and numbers read off them with jackknife errors.
+//!
+//! In: for each run a value per bin of time. Out: means over runs per bin, and what a function of the mean curve (where
+//! it is highest, how steep it is) comes to, with the error that leaving out one run at a time tells.
+//!
+//! ```
+//! use meniscus::reproduce::statistics::{Curves, maximum};
+//!
+//! let run = |shift: f64| (0..41).map(|k| 0.1 * f64::from(k)).map(move |t| Some(2.0 - (t - shift) * (t - shift)));
+//! let times = (0..41).map(|k| 0.1 * f64::from(k)).collect();
+//! let curves = Curves::new(times, [1.4, 1.5, 1.6].into_iter().map(|shift| run(shift).collect()).collect());
+//! let peak = curves.jackknife(|curve| maximum(curve, 0.4).map(|(time, _)| time)).unwrap();
+//! assert!((peak.value - 1.5).abs() < 1e-6 && (peak.error - 0.0577).abs() < 1e-3);
+//! ```
+
+use crate::observables::estimate::Estimate;
+
+/// A mean curve: time and value.
+pub type Curve = Vec<(f64, f64)>;
+
+/// Mean and standard error of the mean; the error is not a number for a single value. None without values.
+#[must_use]
+pub fn mean(values: &[f64]) -> Option<Estimate> {
+    let count = values.len() as f64;
+    let value = values.iter().sum::<f64>() / count;
+    let scatter: f64 = values.iter().map(|one| (one - value) * (one - value)).sum();
+    // 0/0 for one value.
+    let error = (scatter / (count - 1.0) / count).sqrt();
+    (!values.is_empty()).then_some(Estimate { value, error })
+}
+
+/// The same quantity in several runs, bin by bin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    times: Vec<f64>,
+    runs: Vec<Vec<Option<f64>>>,
+}
+
+impl Curves {
+    /// Values of `runs`, each one per bin of `times`; missing ones count as None, further ones are dropped.
+    #[must_use]
+    pub fn new(times: Vec<f64>, runs: Vec<Vec<Option<f64>>>) -> Self {
+        Self { times, runs }
+    }
+
+    /// How many runs there are.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// Mean and standard error over runs per bin in which any run has a value.
+    #[must_use]
+    pub fn means(&self) -> Vec<(f64, Estimate)> {
+        let bin = |(index, &time): (usize, &f64)| {
+            let values: Vec<f64> =
+                self.runs.iter().filter_map(|run| run.get(index).copied().flatten()).collect();
+            mean(&values).map(|estimate| (time, estimate))
+        };
+        self.times.iter().enumerate().filter_map(bin).collect()
+    }
+
+    /// What `read` makes of the mean curve, with the error of leaving out one run at a time: not a number for a single
+    /// run. None if `read` is of the whole or of a part.
+    #[must_use]
+    pub fn jackknife(&self, read: impl Fn(&Curve) -> Option<f64>) -> Option<Estimate> {
+        let all: Vec<&Self> = vec![self];
+        Self::jackknife_of(&all, |curves| read(curves.first()?))
+    }
+
+    /// As [`Curves::jackknife`] of several quantities of the same runs.
+    #[must_use]
+    pub fn jackknife_of(quantities: &[&Self], read: impl Fn(&[Curve]) -> Option<f64>) -> Option<Estimate> {
+        let count = quantities.iter().map(|curves| curves.runs()).min()?;
+        let means = |left_out: usize| -> Vec<Curve> {
+            quantities.iter().map(|curves| curves.mean_without(left_out)).collect()
+        };
+        let value = read(&means(usize::MAX))?;
+        if count < 2 {
+            return (count == 1).then_some(Estimate { value, error: f64::NAN });
+        }
+        let parts: Option<Vec<f64>> = (0..count).map(|left_out| read(&means(left_out))).collect();
+        let parts = parts?;
+        let middle = parts.iter().sum::<f64>() / count as f64;
+        let scatter: f64 = parts.iter().map(|part| (part - middle) * (part - middle)).sum();
+        Some(Estimate { value, error: (scatter * (count as f64 - 1.0) / count as f64).sqrt() })
+    }
+
+    /// The mean curve of all runs but one.
+    fn mean_without(&self, left_out: usize) -> Curve {
+        let bin = |(index, &time): (usize, &f64)| {
+            let kept = self.runs.iter().enumerate().filter(|(run, _)| *run != left_out);
+            let values: Vec<f64> = kept.filter_map(|(_, run)| run.get(index).copied().flatten()).collect();
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            (!values.is_empty()).then_some((time, mean))
+        };
+        self.times.iter().enumerate().filter_map(bin).collect()
+    }
+}
+
+/// Where a curve is highest, and how high: the vertex of the parabola that fits best within `window` about the largest
+/// mean over `window`. At an end of the curve, the end. None for a curve without points.
+#[must_use]
+pub fn maximum(curve: &[(f64, f64)], window: f64) -> Option<(f64, f64)> {
+    let near = |time: f64, reach: f64| -> Curve {
+        curve.iter().filter(|(other, _)| (other - time).abs() <= reach + 1e-9).copied().collect()
+    };
+    let smooth = |time: f64| {
+        let around = near(time, 0.5 * window);
+        around.iter().map(|(_, value)| value).sum::<f64>() / around.len() as f64
+    };
+    let (mut best, mut highest) = (*curve.first()?, f64::NEG_INFINITY);
+    for &(time, value) in curve {
+        let level = smooth(time);
+        if level > highest {
+            (best, highest) = ((time, value), level);
+        }
+    }
+    let around = near(best.0, window);
+    let vertex = parabola(&around, best.0).and_then(|[constant, slope, curvature]| {
+        let shift = -0.5 * slope / curvature;
+        (curvature < 0.0 && shift.abs() <= window).then(|| (best.0 + shift, constant + 0.5 * slope * shift))
+    });
+    let (first, last) = (curve.first()?.0, curve.last()?.0);
+    Some(match vertex {
+        Some((time, value)) if time > first && time < last => (time, value),
+        _ => best,
+    })
+}
+
+/// Constant, slope and curvature of the parabola in `time − origin` that fits best.
+fn parabola(points: &[(f64, f64)], origin: f64) -> Option<[f64; 3]> {
+    let mut powers = [0.0; 5];
+    let mut moments = [0.0; 3];
+    for &(time, value) in points {
+        let mut power = 1.0;
+        for (degree, sum) in powers.iter_mut().enumerate() {
+            *sum += power;
+            if let Some(moment) = moments.get_mut(degree) {
+                *moment += power * value;
+            }
+            power *= time - origin;
+        }
+    }
+    let [n, a, b, c, d] = powers;
+    let [u, v, w] = moments;
+    // Cramer's rule.
+    let determinant = |[p, q, r]: [f64; 3], [s, t, x]: [f64; 3], [y, z, o]: [f64; 3]| {
+        p * (t * o - x * z) - q * (s * o - x * y) + r * (s * z - t * y)
+    };
+    let whole = determinant([n, a, b], [a, b, c], [b, c, d]);
+    let solved = [
+        determinant([u, a, b], [v, b, c], [w, c, d]) / whole,
+        determinant([n, u, b], [a, v, c], [b, w, d]) / whole,
+        determinant([n, a, u], [a, b, v], [b, c, w]) / whole,
+    ];
+    (points.len() >= 3 && solved.iter().all(|number| number.is_finite())).then_some(solved)
+}
+
+/// Slope, value at time zero and coefficient of determination of the line that fits best; None with fewer than three
+/// points.
+#[must_use]
+pub fn line(points: &[(f64, f64)]) -> Option<[f64; 3]> {
+    let count = points.len() as f64;
+    let middle = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / count;
+    let (x, y) = (middle(|point| point.0), middle(|point| point.1));
+    let sum =
+        |pick: &dyn Fn(f64, f64) -> f64| -> f64 { points.iter().map(|&(a, b)| pick(a - x, b - y)).sum() };
+    let (xx, xy, yy) = (sum(&|a, _| a * a), sum(&|a, b| a * b), sum(&|_, b| b * b));
+    let slope = xy / xx;
+    (points.len() >= 3 && xx > 0.0)
+        .then(|| [slope, y - slope * x, if yy > 0.0 { slope * xy / yy } else { 1.0 }])
+}
+
+/// The first time at which a curve reaches `level` from below, between points by a straight line.
+#[must_use]
+pub fn reaches(curve: &[(f64, f64)], level: f64) -> Option<f64> {
+    let first = curve.first().filter(|(_, value)| *value >= level).map(|(time, _)| *time);
+    first.or_else(|| {
+        curve.windows(2).find_map(|pair| match pair {
+            [(earlier, low), (later, high)] if *low < level && *high >= level => {
+                Some(earlier + (later - earlier) * (level - low) / (high - low))
+            }
+            _ => None,
+        })
+    })
+}
+
+/// The mean of a curve over times from `from` to `to`; None if no point lies there.
+#[must_use]
+pub fn average(curve: &[(f64, f64)], from: f64, to: f64) -> Option<f64> {
+    let inside: Vec<f64> =
+        curve.iter().filter(|(time, _)| (from..=to).contains(time)).map(|(_, value)| *value).collect();
+    (!inside.is_empty()).then(|| inside.iter().sum::<f64>() / inside.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(count: u32, step: f64, value: impl Fn(f64) -> f64) -> Curve {
+        (0..count).map(|k| step * f64::from(k)).map(|time| (time, value(time))).collect()
+    }
+
+    #[test]
+    fn the_mean_of_one_value_has_no_error() {
+        let one = mean(&[3.0]).unwrap();
+        assert!(one.value == 3.0 && one.error.is_nan());
+        assert_eq!(mean(&[]), None);
+        let two = mean(&[1.0, 3.0]).unwrap();
+        assert_eq!((two.value, two.error), (2.0, 1.0));
+    }
+
+    #[test]
+    fn the_jackknife_of_a_mean_is_its_standard_error() {
+        let runs = [1.0, 2.0, 4.0, 9.0];
+        let curves = Curves::new(vec![0.0], runs.iter().map(|&value| vec![Some(value)]).collect());
+        let jackknife = curves.jackknife(|curve| curve.first().map(|point| point.1)).unwrap();
+        let direct = mean(&runs).unwrap();
+        assert!(
+            (jackknife.value - direct.value).abs() < 1e-12 && (jackknife.error - direct.error).abs() < 1e-12
+        );
+    }
+
+    #[test]
+    fn bins_without_a_value_are_left_out() {
+        let curves =
+            Curves::new(vec![0.0, 1.0, 2.0], vec![vec![Some(1.0), None], vec![Some(3.0), None, Some(2.0)]]);
+        let means = curves.means();
+        assert_eq!(means.len(), 2);
+        assert_eq!((means[0].1.value, means[1].0), (2.0, 2.0));
+    }
+
+    #[test]
+    fn the_vertex_of_a_noisy_hill_is_found() {
+        let hill = |time: f64| 5.0 - (time - 1.5) * (time - 1.5) + 0.02 * libm::sin(40.0 * time);
+        let (time, value) = maximum(&curve(61, 0.05, hill), 0.4).unwrap();
+        assert!((time - 1.5).abs() < 0.02 && (value - 5.0).abs() < 0.02, "{time} {value}");
+    }
+
+    #[test]
+    fn a_curve_that_rises_to_its_end_is_highest_there() {
+        let (time, _) = maximum(&curve(31, 0.1, |time| time), 0.3).unwrap();
+        assert!(time > 2.7, "{time}");
+        assert_eq!(maximum(&[], 1.0), None);
+    }
+
+    #[test]
+    fn a_line_is_found() {
+        let [slope, start, determination] = line(&curve(10, 0.5, |time| 2.0 * time - 1.0)).unwrap();
+        assert!(
+            (slope - 2.0).abs() < 1e-12 && (start + 1.0).abs() < 1e-12 && (determination - 1.0).abs() < 1e-12
+        );
+        assert_eq!(line(&[(0.0, 1.0), (1.0, 2.0)]), None);
+    }
+
+    #[test]
+    fn a_level_is_reached_between_points() {
+        assert_eq!(reaches(&curve(4, 1.0, |time| 2.0 * time), 3.0), Some(1.5));
+        assert_eq!(reaches(&curve(4, 1.0, |time| 2.0 * time), 7.0), None);
+        assert_eq!(average(&curve(5, 1.0, |time| time), 1.0, 3.0), Some(2.0));
+    }
+}
