@@ -195,7 +195,7 @@ mod tests {
             hashes.extend(sweep.members().iter().map(|member| member.hash.clone()));
         }
         assert_eq!(hashes.len(), count);
-        assert_eq!(count, 4 + 2 + 2 + 14 + 3);
+        assert_eq!(count, 4 + 2 + 2 + 14 + 2);
     }
 
     #[test]

@@ -33,10 +33,12 @@ fn a_report_is_written_of_what_has_finished() {
     let report = report_on(&all, directory, Size::Tiny, None).unwrap();
     for section in &report.sections {
         assert_eq!(section.finished, section.planned, "{}", section.name);
-        assert!(section.name == "text" || !section.pictures.is_empty(), "{}", section.name);
+        // Snapshots are of 1 T and later.
+        let has_none = ["text", "fig-3", "fig-4"].contains(&section.name.as_str());
+        assert!(has_none || !section.pictures.is_empty(), "{}", section.name);
     }
     write(&report, directory).unwrap();
-    for name in ["fig-2", "fig-4", "fig-11", "fig-12", "meshes"] {
+    for name in ["fig-2", "fig-11", "fig-12", "meshes"] {
         for ending in ["svg", "png"] {
             assert!(directory.join(FIGURES).join(format!("{name}.{ending}")).exists(), "{name}.{ending}");
         }
