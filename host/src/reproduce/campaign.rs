@@ -171,10 +171,10 @@ impl Campaign {
         match (self, size) {
             (Self::Rings | Self::Disc, Size::Full) => &["output.trajectory=0", "output.snapshots=0"],
             (Self::Rings, Size::Quick) => {
-                &["output.trajectory=0", "output.snapshots=0", "motion.max_step=0.004"]
+                &["time.until=1.35", "output.trajectory=0", "output.snapshots=0", "motion.max_step=0.004"]
             }
             (Self::Disc, Size::Quick) => {
-                &["output.trajectory=0", "output.snapshots=0", "motion.max_step=0.002"]
+                &["time.until=1.6", "output.trajectory=0", "output.snapshots=0", "motion.max_step=0.002"]
             }
             (Self::Rings, Size::Tiny) => &[
                 "system.particles=13",

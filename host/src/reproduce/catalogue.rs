@@ -142,7 +142,7 @@ pub const CATALOGUE: [Entry; 17] = [
         title: "Ours: force errors",
         paper: "The mesh guarantees the long-ranged potential without any cut-off, with a high accuracy down to distances of the grid spacing, R0.",
         campaigns: &[],
-        build: |evidence| forces::build(evidence.size),
+        build: forces::build,
     },
     Entry {
         name: "energy",

@@ -108,6 +108,8 @@ impl FinishedRun {
 pub struct Evidence {
     /// How large the runs are.
     pub size: Size,
+    /// The directory in which the campaigns are.
+    pub directory: PathBuf,
     finished: Vec<FinishedRun>,
     planned: Vec<(Campaign, usize)>,
 }
@@ -123,7 +125,8 @@ impl Evidence {
         seeds: Option<u32>,
         campaigns: &[Campaign],
     ) -> Result<Self, ReproduceError> {
-        let mut evidence = Self { size, finished: Vec::new(), planned: Vec::new() };
+        let mut evidence =
+            Self { size, directory: directory.to_owned(), finished: Vec::new(), planned: Vec::new() };
         for &campaign in campaigns {
             let ensemble = directory.join(campaign.name());
             let sweep = sweep(campaign, size, seeds)?;

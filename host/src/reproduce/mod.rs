@@ -131,6 +131,8 @@ pub fn report_on(
     size: Size,
     seeds: Option<u32>,
 ) -> Result<Report, ReproduceError> {
+    fs::create_dir_all(directory)
+        .map_err(|source| ReproduceError::Directory { path: directory.to_owned(), source })?;
     let campaigns = campaigns(entries);
     let evidence = Evidence::collect(directory, size, seeds, &campaigns)?;
     let section = |entry: &&Entry| -> Result<Section, ReproduceError> {

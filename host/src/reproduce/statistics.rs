@@ -119,7 +119,7 @@ pub fn maximum(curve: &[(f64, f64)], window: f64) -> Option<(f64, f64)> {
     let around = near(best.0, window);
     let vertex = parabola(&around, best.0).and_then(|[constant, slope, curvature]| {
         let shift = -0.5 * slope / curvature;
-        (curvature < 0.0 && shift.abs() <= window).then(|| (best.0 + shift, constant + 0.5 * slope * shift))
+        (curvature < 0.0 && shift.abs() <= window).then_some((best.0 + shift, constant + 0.5 * slope * shift))
     });
     let (first, last) = (curve.first()?.0, curve.last()?.0);
     Some(match vertex {

@@ -51,11 +51,10 @@ const THINNED: usize = 4;
 /// How a capillary length of Fig. 13 is called.
 #[must_use]
 pub fn ring_label(length: f64) -> String {
-    if length.is_finite() {
-        format!("λ/R = {:.3}", length / PATCH_RADIUS).trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        "λ → ∞".to_owned()
+    if !length.is_finite() {
+        return "λ → ∞".to_owned();
     }
+    format!("λ/R = {}", (100.0 * length / PATCH_RADIUS).round() / 100.0)
 }
 
 /// A group of discs: its number and R_i.
@@ -160,7 +159,7 @@ pub fn rings(evidence: &Evidence) -> Result<Built, ReproduceError> {
     if let Some(run) = runs.first() {
         for (index, ring) in RINGS.iter().enumerate() {
             if let Some(group) = closest(&groups, ring.initial) {
-                let label = if index == 0 { "cold shells, theory" } else { "" };
+                let label = if index == 0 { "mean-field shells" } else { "" };
                 chart.series.push(theory(run, group, label, Colour::Black, Dash::Dashed));
                 let label = if index == 0 { "Eq. 13" } else { "" };
                 let eq13 = (0..=100)
@@ -176,7 +175,9 @@ pub fn rings(evidence: &Evidence) -> Result<Built, ReproduceError> {
     }
     let caption = "Radii of rings in cold collapse, λ/R = 1.48: points measured, solid lines fits of Eq. 30 over 0 < t < 0.9 T with \
                    the paper's R_f, dashed: shells in mean-field theory with periodic images, dotted: Eq. 13.";
-    built.draw("fig-12", caption, &Figure::new("", panels))?;
+    let mut figure = Figure::new("", panels);
+    figure.panel_height = figure.panel_width;
+    built.draw("fig-12", caption, &figure)?;
     built.findings.extend(shells_finding(&runs, &groups)?);
     Ok(built)
 }
@@ -207,7 +208,9 @@ fn shells(configuration: &Configuration) -> Option<Shells> {
 
 /// R(t) of a ring in theory, up to when it has shrunk to nothing.
 fn theory(run: &FinishedRun, group: Group, label: &str, colour: Colour, dash: Dash) -> Drawn {
-    Drawn::line(label, colour, dash, theory_curve(run, group).unwrap_or_default())
+    let curve = theory_curve(run, group).unwrap_or_default();
+    let end = curve.iter().position(|(_, radius)| *radius <= 0.0).map_or(curve.len(), |place| place + 1);
+    Drawn::line(label, colour, dash, curve.into_iter().take(end))
 }
 
 fn theory_curve(run: &FinishedRun, group: Group) -> Option<Curve> {
@@ -251,7 +254,7 @@ fn shells_finding(runs: &[&FinishedRun], groups: &[Group]) -> Result<Vec<Finding
 pub fn lengths(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let mut built = Built::default();
     let mut chart = Chart::new("", time_axis(), Axis::linear("R", "R_0"));
-    let mut delays = Vec::new();
+    let (mut delays, mut theories) = (Vec::new(), Vec::new());
     for (index, reach) in RING_REACHES.iter().enumerate() {
         let length = (reach * PATCH_RADIUS * 1e6).round() / 1e6;
         let runs = evidence.with_length(Campaign::Rings, length);
@@ -261,10 +264,11 @@ pub fn lengths(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let last = LAST_OVER_INITIAL * outermost.initial;
         let colour = Colour::ordered(index, RING_REACHES.len());
         add(&mut chart, &ring_label(length), colour, index, &curves, last);
-        let label = if index == 0 { "cold shells, theory" } else { "" };
-        chart.series.push(theory(run, outermost, label, Colour::Black, Dash::Dashed));
+        let label = if theories.is_empty() { "mean-field shells" } else { "" };
+        theories.push(theory(run, outermost, label, Colour::Black, Dash::Dashed));
         delays.push((length, delay(&curves, last), collapse_time(run, outermost)));
     }
+    chart.series.extend(theories);
     let caption = "Radius of the outermost ring: points measured, solid lines fits of Eq. 30 over 0 < t < 0.9 T, dashed: shells in \
                    mean-field theory with periodic images.";
     built.draw("fig-13", caption, &Figure::new("", [Panel::Chart(chart)]))?;

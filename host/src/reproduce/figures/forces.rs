@@ -8,14 +8,19 @@ use crate::engine::Engine;
 use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Marker, Series as Drawn};
 use crate::figures::{Figure, Panel};
+use crate::files::atomic::write_atomically;
+use crate::files::table::{Table, TableText};
 use crate::observables::estimate::Estimate;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::Size;
+use crate::reproduce::evidence::Evidence;
 use crate::reproduce::finding::{Criterion, Finding};
 use crate::reproduce::statistics::Curve;
 use core::f64::consts::TAU;
 use meniscus_core::dynamics::Clock;
 use meniscus_core::torus::Position;
+use rayon::prelude::*;
+use std::path::Path;
 
 /// Side of the box, R0.
 const SIDE: f64 = 500.0;
@@ -66,17 +71,38 @@ const WAYS: [Way; 5] = [
     },
 ];
 
+/// Name of the table of errors, which are the same every time and take a while.
+const TABLE: &str = "forces.csv";
+
+/// A mesh soon made, for tests.
+const COARSE: Way = Way {
+    label: "coarse mesh",
+    overrides: &["force.method=pm", "mesh.grid=32"],
+    marker: Marker::Circle,
+    accepted: 1.0,
+};
+
 /// Errors of the capillary force of two discs in the box of Table I, by distance.
 ///
 /// # Errors
 /// [`ReproduceError`].
-pub fn build(size: Size) -> Result<Built, ReproduceError> {
+pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let mut built = Built::default();
-    let (distances, places) = if size == Size::Tiny { (2, 1) } else { (22, 12) };
-    let ways = if size == Size::Tiny { &WAYS[2..3] } else { &WAYS[..] };
+    let (distances, places) = if evidence.size == Size::Tiny { (2, 1) } else { (22, 8) };
+    let ways = if evidence.size == Size::Tiny { &[COARSE][..] } else { &WAYS[..] };
+    let path = evidence.directory.join(TABLE);
+    let curves = match kept(&path, ways, distances) {
+        Some(curves) => curves,
+        None => {
+            let curves: Result<Vec<Curve>, ReproduceError> =
+                ways.par_iter().map(|way| errors(way, distances, places)).collect();
+            let curves = curves?;
+            keep(&path, ways, &curves)?;
+            curves
+        }
+    };
     let mut chart = Chart::new("", Axis::log("d", "R_0"), Axis::log("rms error of the force / (V_0/d)", ""));
-    for (index, way) in ways.iter().enumerate() {
-        let curve = errors(way, distances, places)?;
+    for (index, (way, curve)) in ways.iter().zip(curves).enumerate() {
         let at_ten = curve.iter().min_by(|a, b| (a.0 - 10.0).abs().total_cmp(&(b.0 - 10.0).abs()));
         let measured = at_ten.map(|(_, error)| Estimate { value: *error, error: 0.0 });
         let quantity = format!(
@@ -100,6 +126,30 @@ pub fn build(size: Size) -> Result<Built, ReproduceError> {
             .to_owned(),
     );
     Ok(built)
+}
+
+/// The curves of an earlier report by the same version.
+fn kept(path: &Path, ways: &[Way], distances: u32) -> Option<Vec<Curve>> {
+    let table = Table::read(path).ok()?.with("version", env!("CARGO_PKG_VERSION")).ok()?;
+    let curve = |way: &Way| -> Option<Curve> {
+        let rows = table.with("way", way.label).ok()?;
+        let numbers = rows.numbers("distance").ok()?.into_iter().zip(rows.numbers("error").ok()?);
+        let curve: Curve = numbers.filter_map(|(distance, error)| Some((distance?, error?))).collect();
+        (curve.len() == distances as usize).then_some(curve)
+    };
+    ways.iter().map(curve).collect()
+}
+
+/// Writes curves for a later report.
+fn keep(path: &Path, ways: &[Way], curves: &[Curve]) -> Result<(), ReproduceError> {
+    let mut text = TableText::new(["version", "way", "distance", "error"]);
+    for (way, curve) in ways.iter().zip(curves) {
+        for (distance, error) in curve {
+            let cells = [env!("CARGO_PKG_VERSION"), way.label, &distance.to_string(), &error.to_string()];
+            text.row(cells);
+        }
+    }
+    Ok(write_atomically(path, &text.into_bytes())?)
 }
 
 /// Distance and rms error relative to V0/d.

@@ -5,6 +5,7 @@ use crate::configuration::Configuration;
 use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Marker, Series as Drawn};
 use crate::figures::{Figure, Panel};
+use crate::observables::density::Density;
 use crate::observables::estimate::Estimate;
 use crate::observables::modes::growth::{Growth, growth_ratio};
 use crate::observables::series::Series;
@@ -13,7 +14,10 @@ use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::Campaign;
 use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
 use crate::reproduce::finding::{Criterion, Finding};
-use crate::theory::Instability;
+use crate::simulation::torus;
+use crate::start;
+use crate::theory::continuity::Continuity;
+use crate::theory::{Instability, Pressure};
 
 /// Shells of which the growth is drawn, at most.
 const DRAWN: usize = 8;
@@ -26,6 +30,12 @@ const THINNED: usize = 3;
 
 /// Up to where waves are long, k/K: beyond, pressure, noise and what clusters are about to do to it matter.
 const LONG: f64 = 0.2;
+
+/// Width of the cells of the mean-field solution, R0, at least: enough for k < K_c = 0.24/R0.
+const CELL: f64 = 4.0;
+
+/// Times at which the mean-field solution is drawn.
+const DRAWN_TIMES: u32 = 15;
 
 /// What is known of a shell of waves in one run.
 struct ShellOfRun {
@@ -53,7 +63,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
         panels.push(Panel::Chart(rate_chart(&runs, &all, &theory)));
     }
     let caption = "(a) Growth of the modes by shells of wavenumbers, each shifted up by 1: points measured, solid lines Eq. 10, dashed lines \
-                   Eq. 10 with thermal noise. (b) Growth rate over that of Eq. 10 by wavenumber, noise taken into account.";
+                   Eq. 10 with thermal noise, dotted lines the mean-field density (Eq. 6, nonlinear) from the start of one run. (b) Growth rate over that of Eq. 10 by wavenumber, noise taken into account.";
     let mut figure = Figure::new("", panels);
     figure.panel_height = 360.0;
     built.draw("fig-2", caption, &figure)?;
@@ -123,6 +133,7 @@ fn growth_chart(
     let chosen: Vec<&&ShellOfRun> = unstable.iter().skip(every / 2).step_by(every).collect();
     let mut chart = Chart::new("", time_axis(), Axis::linear("ln |ρ_k(t)| / |ρ_k(0)|", ""));
     let until = configuration.time.until;
+    let mean_field = mean_field(configuration).unwrap_or_default();
     for (index, shell) in chosen.iter().enumerate() {
         let shift = SHIFT * (chosen.len() - 1 - index) as f64;
         let colour = Colour::ordered(index, chosen.len());
@@ -140,8 +151,45 @@ fn growth_chart(
             .map(|step| until * f64::from(step) / 60.0)
             .map(|time| (time, shift + noisy_growth(shell.wavenumber, theory, time)));
         chart.series.push(Drawn::line(label("Eq. 10 and noise"), Colour::Grey, Dash::Dashed, noisy));
+        let solved = mean_field.iter().filter_map(|(time, growth)| {
+            Some((*time, shift + growth.get((shell.shell as usize).checked_sub(1)?).copied().flatten()?))
+        });
+        chart.series.push(Drawn::line(label("Eq. 6, one start"), colour, Dash::Dotted, solved));
     }
     Ok(chart)
+}
+
+/// Time and ln |ρ̂(t)|/|ρ̂(0)| by shells, from 1, of the mean-field density that begins where the discs of a run do.
+fn mean_field(configuration: &Configuration) -> Option<Vec<(f64, Vec<Option<f64>>)>> {
+    let torus = torus(configuration).ok()?;
+    let system = &configuration.system;
+    let positions = start::random(&torus, system.particles, configuration.seed).ok()?;
+    let mut cells = 16;
+    while cells < 128 && system.side > 2.0 * CELL * cells as f64 {
+        cells *= 2;
+    }
+    let density = Density::new(&torus, &positions, system.side / cells as f64).ok()?;
+    let mut solution = Continuity::new(
+        system.side,
+        density.grid(),
+        system.capillary_strength,
+        system.capillary_length,
+        Pressure::IdealGas,
+        density.values(),
+    )
+    .ok()?;
+    let before = solution.spectrum();
+    let shells = cells / 2 - 1;
+    let jeans = configuration.jeans_time()?;
+    let mut drawn = vec![(0.0, vec![Some(0.0); shells])];
+    for step in 1..=DRAWN_TIMES {
+        let time = configuration.time.until * f64::from(step) / f64::from(DRAWN_TIMES);
+        if solution.advance_to(time * jeans).is_err() {
+            break;
+        }
+        drawn.push((time, solution.spectrum().log_growth(&before, shells)));
+    }
+    Some(drawn)
 }
 
 /// The mean of ln |ρ̂_k(t)|/|ρ̂_k(0)| where discs at random begin with |ρ̂_k|² = N and noise adds to the growth:

@@ -14,7 +14,7 @@ svg{max-width:100%;height:auto}h2{margin-top:2.5rem;border-top:1px solid #bbb;pa
 /// The whole page, well-formed as XML too.
 pub(super) fn html(report: &Report) -> String {
     let text = report.markdown();
-    let options = Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
+    let options = Options::ENABLE_TABLES;
     let mut events = Vec::new();
     // What stands between the begin and the end of an image is its description, which is said below it.
     let mut inside_drawing = false;

@@ -32,8 +32,8 @@ fn head(report: &Report) -> String {
         Size::Full => "The numbers of discs, boxes, times and runs are those of the paper.",
         Size::Quick => {
             "This is the quick version: for Figs. 3 to 11 a quarter of the discs (625) at the paper's density, so at the \
-             same Jeans' time and wavenumber; fewer runs; and a ceiling of the time step twice the default (four times \
-             for cold rings). Short capillary lengths keep λK, long ones λ/L."
+             same Jeans' time and wavenumber; fewer runs, those of Figs. 12 to 14 shorter; and a ceiling of the time step twice the default (four \
+             times for cold rings). Short capillary lengths keep λK, long ones λ/L."
         }
         Size::Tiny => "This is a test of the machinery: nothing in it says anything of physics.",
     };
@@ -67,15 +67,15 @@ fn summary(report: &Report) -> String {
 }
 
 fn of_section(section: &Section) -> String {
-    // The name is the anchor: headings have no agreed ones.
-    let mut text = format!("## {} {{#{}}}\n\n", escaped(&section.title), section.name);
+    // An anchor of its own: those that headings get differ between readers.
+    let mut text = format!("<a id=\"{}\"></a>\n\n## {}\n\n", section.name, escaped(&section.title));
     if section.planned > 0 {
         text.push_str(&format!("From {}.\n\n", progress(section.finished, section.planned)));
     }
     text.push_str(&format!("**The paper:** {}\n\n", section.paper));
     for picture in &section.pictures {
         let caption = &picture.caption;
-        text.push_str(&format!("![{caption}]({FIGURES}/{}.svg)\n\n*{caption}*\n\n", picture.stem));
+        text.push_str(&format!("![{0}]({FIGURES}/{0}.svg)\n\n*{caption}*\n\n", picture.stem));
     }
     if !section.findings.is_empty() {
         text.push_str(

@@ -175,7 +175,7 @@ mod tests {
         let text = made_up().markdown();
         assert!(text.contains("| A0 of ring 5 | 1.16 \\| top | 1.1587 ± 0.0010 |"), "{text}");
         assert!(text.contains("| reproduced |") && text.contains("| **not reproduced** |"), "{text}");
-        assert!(text.contains("![R(t)](figures/fig-12.svg)"), "{text}");
+        assert!(text.contains("![fig-12](figures/fig-12.svg)"), "{text}");
         assert!(text.contains("1 of 4 runs"), "{text}");
         assert_eq!(text, made_up().markdown());
     }
