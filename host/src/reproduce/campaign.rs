@@ -185,7 +185,8 @@ impl Campaign {
                 "output.trajectory=0",
                 "output.snapshots=0",
                 "motion.max_step=0.02",
-                "force.splitting=0.1",
+                "force.method=pm",
+                "mesh.grid=64",
             ],
             (Self::Disc, Size::Tiny) => &[
                 "system.particles=20",
@@ -195,7 +196,8 @@ impl Campaign {
                 "output.trajectory=0",
                 "output.snapshots=0",
                 "motion.max_step=0.02",
-                "force.splitting=0.1",
+                "force.method=pm",
+                "mesh.grid=64",
             ],
             (Self::Modes, Size::Full) => &["output.trajectory=0", "output.snapshots=0"],
             (Self::Modes, Size::Quick) => {
@@ -208,7 +210,8 @@ impl Campaign {
                 "output.trajectory=0",
                 "output.snapshots=0",
                 "motion.max_step=0.02",
-                "force.splitting=0.2",
+                "force.method=pm",
+                "mesh.grid=32",
             ],
             (Self::Clustering, Size::Full) | (Self::PaperMesh, Size::Full) => &[
                 "output.observables=0.05",
@@ -232,7 +235,8 @@ impl Campaign {
                 "output.trajectory=0.01",
                 "output.snapshots=0",
                 "motion.max_step=0.02",
-                "force.splitting=0.2",
+                "force.method=pm",
+                "mesh.grid=32",
             ],
             (Self::PaperMesh, Size::Tiny) => &[
                 "system.particles=25",
@@ -242,6 +246,7 @@ impl Campaign {
                 "output.trajectory=0.01",
                 "output.snapshots=0",
                 "motion.max_step=0.02",
+                "mesh.grid=16",
             ],
         }
     }

@@ -28,12 +28,20 @@ const SIDE: f64 = 500.0;
 /// Images in reach of a disc: beyond, K₁ is below e⁻²².
 const IMAGES: i32 = 12;
 
+/// What the paper says of its mesh.
+const HIGH: &str = "a high accuracy down to small distances of the order of the grid spacing";
+
+/// Of ours it says nothing.
+const OURS: &str = "(not in the paper) ten times the error asked for of all forces";
+
 /// A way to sum the force.
 struct Way {
     label: &'static str,
     overrides: &'static [&'static str],
     marker: Marker,
-    /// Largest rms error of a pair at 10 R0, of V0/d there, that is accepted.
+    /// What the paper says of it.
+    paper: &'static str,
+    /// Largest rms error of a pair close to contact, of V0/d, that counts as that.
     accepted: f64,
 }
 
@@ -43,30 +51,35 @@ const WAYS: [Way; 5] = [
         label: "mesh alone, CIC",
         overrides: &["force.method=pm", "mesh.assignment=cic"],
         marker: Marker::Circle,
-        accepted: 0.5,
+        paper: HIGH,
+        accepted: 0.02,
     },
     Way {
         label: "mesh alone, TSC",
         overrides: &["force.method=pm", "mesh.assignment=tsc"],
         marker: Marker::Square,
-        accepted: 0.5,
+        paper: HIGH,
+        accepted: 0.02,
     },
     Way {
         label: "split, error 10^{-3}",
         overrides: &["force.accuracy=1e-3"],
         marker: Marker::Triangle,
+        paper: OURS,
         accepted: 1e-2,
     },
     Way {
         label: "split, error 10^{-4}",
         overrides: &["force.accuracy=1e-4"],
         marker: Marker::Diamond,
+        paper: OURS,
         accepted: 1e-3,
     },
     Way {
         label: "split, error 10^{-5}",
         overrides: &["force.accuracy=1e-5"],
         marker: Marker::Cross,
+        paper: OURS,
         accepted: 1e-4,
     },
 ];
@@ -79,6 +92,7 @@ const COARSE: Way = Way {
     label: "coarse mesh",
     overrides: &["force.method=pm", "mesh.grid=32"],
     marker: Marker::Circle,
+    paper: HIGH,
     accepted: 1.0,
 };
 
@@ -88,7 +102,7 @@ const COARSE: Way = Way {
 /// [`ReproduceError`].
 pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let mut built = Built::default();
-    let (distances, places) = if evidence.size == Size::Tiny { (2, 1) } else { (22, 8) };
+    let (distances, places) = if evidence.size == Size::Tiny { (2, 1) } else { (22, 12) };
     let ways = if evidence.size == Size::Tiny { &[COARSE][..] } else { &WAYS[..] };
     let path = evidence.directory.join(TABLE);
     let curves = match kept(&path, ways, distances) {
@@ -103,19 +117,10 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     };
     let mut chart = Chart::new("", Axis::log("d", "R_0"), Axis::log("rms error of the force / (V_0/d)", ""));
     for (index, (way, curve)) in ways.iter().zip(curves).enumerate() {
-        let at_ten = curve.iter().min_by(|a, b| (a.0 - 10.0).abs().total_cmp(&(b.0 - 10.0).abs()));
-        let measured = at_ten.map(|(_, error)| Estimate { value: *error, error: 0.0 });
-        let quantity = format!(
-            "rms error of a pair's force at 10 R0, of V0/d: {}",
-            way.label.replace("10^{-", "1e-").replace('}', "")
-        );
-        let paper = if index < 2 {
-            "high accuracy down to distances of the grid spacing"
-        } else {
-            "(not in the paper)"
-        };
-        let criterion = Criterion::at_most(if index < 2 { 0.01 } else { way.accepted });
-        built.findings.push(Finding::new(quantity, paper, criterion).measured(measured));
+        let label = way.label.replace("10^{-", "1e-").replace('}', "");
+        let quantity = format!("rms error of a pair's force at 2 to 4 R0, of V0/d: {label}");
+        let finding = Finding::new(quantity, way.paper, Criterion::at_most(way.accepted));
+        built.findings.push(finding.measured(close(&curve)));
         chart.series.push(Drawn::joined(way.label, Colour::Category(index), way.marker, curve));
     }
     let caption = "Error of the capillary force of two discs at random places in the box of Table I against the exact sum over images.";
@@ -126,6 +131,15 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
             .to_owned(),
     );
     Ok(built)
+}
+
+/// The rms over distances from contact to twice that.
+fn close(curve: &Curve) -> Option<Estimate> {
+    let squares: Vec<f64> = (curve.iter().filter(|(distance, _)| (2.0..=4.0).contains(distance)))
+        .map(|(_, error)| error * error)
+        .collect();
+    let value = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    (!squares.is_empty()).then_some(Estimate { value, error: 0.0 })
 }
 
 /// The curves of an earlier report by the same version.
@@ -163,8 +177,9 @@ fn errors(way: &Way, distances: u32, places: u64) -> Result<Curve, ReproduceErro
         // 1 to 200 R0.
         let distance = libm::pow(200.0, f64::from(step) / f64::from(distances.max(2) - 1));
         let mut squares = 0.0;
-        for _ in 0..places {
-            let angle = TAU * random.uniform();
+        for place in 0..places {
+            // Errors are largest along the axes: every direction has its share.
+            let angle = TAU * (place as f64 + random.uniform()) / places as f64;
             let (sine, cosine) = libm::sincos(angle);
             let first = [SIDE * random.uniform(), SIDE * random.uniform()].map(fraction);
             let second = [

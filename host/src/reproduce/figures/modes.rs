@@ -134,6 +134,7 @@ fn growth_chart(
     let mut chart = Chart::new("", time_axis(), Axis::linear("ln |ρ_k(t)| / |ρ_k(0)|", ""));
     let until = configuration.time.until;
     let mean_field = mean_field(configuration).unwrap_or_default();
+    let mut lines = Vec::new();
     for (index, shell) in chosen.iter().enumerate() {
         let shift = SHIFT * (chosen.len() - 1 - index) as f64;
         let colour = Colour::ordered(index, chosen.len());
@@ -146,16 +147,17 @@ fn growth_chart(
         let rate = theory.growth_rate(shell.wavenumber) * theory.jeans_time;
         let label = |text: &'static str| if index == 0 { text } else { "" };
         let line = [0.0, until].map(|time| (time, shift + rate * time));
-        chart.series.push(Drawn::line(label("Eq. 10"), Colour::Black, Dash::Solid, line));
+        lines.push(Drawn::line(label("Eq. 10"), Colour::Black, Dash::Solid, line));
         let noisy = (0..=60)
             .map(|step| until * f64::from(step) / 60.0)
             .map(|time| (time, shift + noisy_growth(shell.wavenumber, theory, time)));
-        chart.series.push(Drawn::line(label("Eq. 10 and noise"), Colour::Grey, Dash::Dashed, noisy));
+        lines.push(Drawn::line(label("Eq. 10 and noise"), Colour::Grey, Dash::Dashed, noisy));
         let solved = mean_field.iter().filter_map(|(time, growth)| {
             Some((*time, shift + growth.get((shell.shell as usize).checked_sub(1)?).copied().flatten()?))
         });
-        chart.series.push(Drawn::line(label("Eq. 6, one start"), colour, Dash::Dotted, solved));
+        lines.push(Drawn::line(label("Eq. 6, one start"), colour, Dash::Dotted, solved));
     }
+    chart.series.extend(lines);
     Ok(chart)
 }
 
