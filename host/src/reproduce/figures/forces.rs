@@ -32,7 +32,7 @@ const IMAGES: i32 = 12;
 const HIGH: &str = "a high accuracy down to small distances of the order of the grid spacing";
 
 /// Of ours it says nothing.
-const OURS: &str = "(not in the paper) ten times the error asked for of all forces";
+const OURS: &str = "(ours) ten times the error asked for of all forces";
 
 /// A way to sum the force.
 struct Way {

@@ -45,7 +45,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let [of_split, of_mesh] = clusters;
     let (of_split, of_mesh) = (of_split?, of_mesh?);
     let same = || Criterion::equals(1.0, 0.05).with_errors(2.0, 0.1);
-    let paper = "(not in the paper) mesh alone and split force agree";
+    let paper = "(ours) mesh alone and split force agree";
     built.findings.push(
         Finding::new("clusters over 0 to 5 T, mesh alone over split force", paper, same()).measured(both(
             &of_mesh,

@@ -43,7 +43,7 @@ fn head(report: &Report) -> String {
          figure: what the paper says, what meniscus {version} finds, and whether the two are the same. {size}\n\n\
          Lengths are in disc radii R0, energies in kBT, times in Jeans' times T unless said otherwise. A number after ± is \
          one standard error (s.e.), over runs by the jackknife unless said otherwise. A verdict is computed from the \
-         numbers beside it, by the criterion beside it.\n\n",
+         numbers beside it, by the criterion beside it; of what is ours, reproduced means as expected.\n\n",
         version = env!("CARGO_PKG_VERSION"),
     )
 }
