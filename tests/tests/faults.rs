@@ -223,6 +223,7 @@ fn an_end_before_the_present_is_refused_and_a_finished_run_says_so() {
     refuse(folder.path(), &["resume", "run", "--until", "0.05"], &["run: time.until = 0.05", "already"]);
     refuse(folder.path(), &["resume", "run", "--until", "-1"], &["time.until"]);
     refuse(folder.path(), &["resume", "nowhere"], &["nowhere: found no checkpoint"]);
+    refuse(folder.path(), &["resume", "small.toml"], &["small.toml: found no checkpoint"]);
     assert!(!folder.path().join("nowhere").exists());
     refuse(folder.path(), &["resume", "."], &[".: found no checkpoint"]);
     assert!(!folder.path().join("lock").exists());

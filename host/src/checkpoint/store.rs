@@ -162,7 +162,8 @@ pub fn latest(directory: &Path) -> Result<Latest, LatestError> {
     for path in [CURRENT, PREVIOUS].map(|name| directory.join(name)) {
         match Checkpoint::read(&path) {
             Ok(checkpoint) => return Ok(Latest { checkpoint, path, refused }),
-            Err(CheckpointError::Input(problem)) if problem.kind() == ErrorKind::NotFound => {}
+            Err(CheckpointError::Input(problem))
+                if matches!(problem.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
             Err(problem @ CheckpointError::Version { .. }) => {
                 return Err(LatestError::Version(Refused { path, problem }));
             }
