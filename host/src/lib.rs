@@ -3,7 +3,8 @@
 //! The engine proper is [`meniscus_core`]; everything here feeds it or looks at it, and nothing that looks can
 //! change a run. A run's way through this crate: [`configuration`] → [`start`] → [`simulation`] →
 //! [`run`], which drives the [`engine`] and writes [`files`], [`observables`], [`snapshot`]s and [`golden`] records;
-//! [`verification`] repeats a golden run.
+//! [`verification`] repeats a golden run. [`ensemble`] makes many runs, [`figures`] draws their tables, and [`theory`] says
+//! what to expect.
 
 pub mod accuracy;
 mod bessel;

@@ -156,8 +156,8 @@ fn kill(format: &str, few: usize, many: usize) {
     eprintln!("{format}: {table:?}");
     assert_eq!(table.mismatches, 0);
     assert!(table.kills >= kills && table.resumes > 0);
-    // So many kills hit everything that a run writes.
-    assert!(kills < 200 || (table.in_checkpoint > 0 && table.in_file > 0 && table.ahead > 0), "{table:?}");
+    // So many kills hit checkpoints and appends that are under way.
+    assert!(kills < 200 || (table.in_checkpoint > 0 && table.ahead > 0), "{table:?}");
 }
 
 #[test]
@@ -173,8 +173,6 @@ fn so_does_one_with_a_numpy_archive() {
 #[test]
 fn so_do_those_with_text() {
     for format in ["xyz", "lammps"] {
-        if long_tests() {
-            kill(format, 0, 50);
-        }
+        kill(format, 3, 50);
     }
 }

@@ -234,6 +234,7 @@ fn a_file_without_its_run_says_what_it_needs() {
 
     program
         .refuse(&["analyze", "alone-trajectory.gsd", "--series", "radii"], &["--width", "--configuration"]);
+    program.refuse(&["analyze", "."], &[".: there is no config.toml in this directory"]);
     program.refuse(&["analyze", "alone-final.csv"], &["alone-final.csv", "--box"]);
     program.refuse(&["analyze", "alone-final.state"], &["alone-final.state", "--box"]);
     program.refuse(&["analyze", "alone-trajectory.gsd", "--box", "47"], &["48", "47"]);

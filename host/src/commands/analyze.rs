@@ -99,7 +99,8 @@ impl Arguments {
         let beside = if of_run { path.join(CONFIGURATION) } else { path.with_file_name(CONFIGURATION) };
         let configuration = match &self.configuration {
             Some(name) => Some(Configuration::from_argument(name, &[])?),
-            None if of_run || beside.exists() => Some(Configuration::read(&beside, &[])?),
+            None if beside.exists() => Some(Configuration::read(&beside, &[])?),
+            None if of_run => return Err(CommandError::NoRun(path)),
             None => None,
         };
         if let (true, Some(configuration)) = (of_run, &configuration) {

@@ -141,6 +141,8 @@ enum CommandError {
     Signal(std::io::Error),
     #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]
     NoState(PathBuf),
+    #[error("{}: there is no config.toml in this directory; name a run's directory, or a trajectory", .0.display())]
+    NoRun(PathBuf),
     #[error("{}: {found}; a golden file needs at least one record", path.display())]
     GoldenRecords { path: PathBuf, found: &'static str },
     #[error("--stages {step}: the run begins after step {start}; name a later step")]
