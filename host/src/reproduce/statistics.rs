@@ -43,6 +43,15 @@ impl Curves {
         Self { times, runs }
     }
 
+    /// The same, zeros counting as missing: a mean over clusters is 0 where there is none.
+    #[must_use]
+    pub fn without_zeros(self) -> Self {
+        let kept = |run: Vec<Option<f64>>| {
+            run.into_iter().map(|value| value.filter(|value| *value != 0.0)).collect()
+        };
+        Self { times: self.times, runs: self.runs.into_iter().map(kept).collect() }
+    }
+
     /// How many runs there are.
     #[must_use]
     pub fn runs(&self) -> usize {

@@ -86,6 +86,7 @@ pub fn mass(evidence: &Evidence) -> Result<Built, ReproduceError> {
             for look in looks(short) {
                 if let Some(curves) = of_reach(evidence, &look.reach, Series::Observables, column, None)? {
                     let label = look.reach.label(evidence.size);
+                    let curves = curves.without_zeros();
                     chart.series.push(drawn(&label, look.colour, look.style, &curves, 1.0));
                 }
             }

@@ -33,6 +33,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let mut chart = Chart::new("", time_axis(), axis);
         for (index, (label, runs, colour)) in sets.iter().enumerate() {
             if let Some(found) = some(runs, Series::Observables, column, None)? {
+                let found = if column == "mean_cluster_size" { found.without_zeros() } else { found };
                 chart.series.push(drawn(label, *colour, Style::Band(Dash::numbered(index)), &found, unit));
             }
         }
