@@ -1,6 +1,6 @@
 //! The command line: one file a command, each from parsed arguments to an exit code.
 //!
-//! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error); a closed pipe changes none of them.
+//! Exit codes: 0 ok, 1 a comparison failed, 2 an error (one line on standard error; of arguments clap's several); a closed pipe changes none of them.
 
 mod analyze;
 mod convert;
