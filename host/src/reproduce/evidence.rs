@@ -10,7 +10,7 @@
 //! let folder = tempfile::tempdir()?;
 //! let evidence = Evidence::collect(folder.path(), Size::Tiny, None, &[Campaign::Disc])?;
 //! assert_eq!((evidence.of(Campaign::Disc).len(), evidence.planned(Campaign::Disc)), (0, 2));
-//! # Ok::<(), meniscus::reproduce::ReproduceError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 use super::ReproduceError;

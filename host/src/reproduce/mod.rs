@@ -16,7 +16,7 @@
 //! let folder = tempfile::tempdir()?;
 //! let report = report_on(&chosen, folder.path(), Size::Tiny, None)?;
 //! assert_eq!((report.sections[0].finished, report.sections[0].planned), (0, 4));
-//! # Ok::<(), meniscus::reproduce::ReproduceError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod campaign;
