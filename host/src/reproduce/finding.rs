@@ -59,7 +59,7 @@ pub enum Criterion {
         most: f64,
         /// Standard errors it may lie outside.
         standard_errors: f64,
-        /// The largest standard error with which the comparison says anything.
+        /// The largest standard error with which a value that close to a bound says anything.
         resolution: f64,
     },
     /// Two numbers that the paper gives, or that follow from what it gives, are the same within their rounding.
@@ -125,12 +125,15 @@ impl Criterion {
             Self::Between { least, most, standard_errors, resolution } => {
                 let Some(Estimate { value, error }) = measured else { return Verdict::Undecided };
                 let margin = standard_errors * error;
-                if value.is_nan() || error.is_nan() || error > resolution {
+                let within = |margin: f64| (least + margin..=most - margin).contains(&value);
+                if value.is_nan() || error.is_nan() {
                     Verdict::Undecided
-                } else if (least - margin..=most + margin).contains(&value) {
+                } else if !within(-margin) {
+                    Verdict::NotReproduced
+                } else if within(margin) || error <= resolution {
                     Verdict::Reproduced
                 } else {
-                    Verdict::NotReproduced
+                    Verdict::Undecided
                 }
             }
         }
@@ -143,13 +146,18 @@ impl Criterion {
             Self::Consistent { printed, implied, rounding } => {
                 format!("{} and {} differ by at most {}", plain(printed), plain(implied), plain(rounding))
             }
-            Self::Between { least, most, standard_errors, .. } => {
+            Self::Between { least, most, standard_errors, resolution } => {
                 let range = match (least.is_finite(), most.is_finite()) {
                     (true, true) => format!("{} to {}", plain(least), plain(most)),
                     (true, false) => format!("at least {}", plain(least)),
                     _ => format!("at most {}", plain(most)),
                 };
-                format!("{range}, or up to {standard_errors} s.e. outside")
+                let most_error = if resolution.is_finite() {
+                    format!(" of at most {}", plain(resolution))
+                } else {
+                    String::new()
+                };
+                format!("{range}, or up to {standard_errors} s.e.{most_error} outside")
             }
         }
     }
@@ -255,6 +263,11 @@ mod tests {
         assert_eq!(verdict(delay, 1.16, f64::NAN), Verdict::Undecided);
         assert_eq!(verdict(delay, 1.4, 0.2), Verdict::Undecided);
         assert_eq!(verdict(delay.with_errors(2.0, 0.3), 1.4, 0.2), Verdict::Reproduced);
+        // What is far from any bound does not have to be known well.
+        let grows = Criterion::at_least(1.0).with_errors(2.0, 0.05);
+        assert_eq!(verdict(grows, 0.8, 0.2), Verdict::Undecided);
+        assert_eq!(verdict(grows, 1.8, 0.2), Verdict::Reproduced);
+        assert_eq!(verdict(grows, 0.2, 0.2), Verdict::NotReproduced);
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub fn number(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let ratio = both(&count(reach)?, &longest, |curve| integral(curve, COLLAPSED));
         let quantity = format!("clusters over 0 to 5 T, {} over λ/L = 10", reach.label(evidence.size));
         let paper = "a λ-independent limit as λ increases";
-        let criterion = Criterion::equals(1.0, 0.05).with_errors(2.0, 0.1);
+        let criterion = Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05);
         built.findings.push(Finding::new(quantity, paper, criterion).measured(ratio));
     }
     let shortest = count(&REACHES[0])?;
@@ -63,7 +63,7 @@ pub fn number(evidence: &Evidence) -> Result<Built, ReproduceError> {
     });
     let quantity =
         format!("clusters at 6 to 7 T over those at 3 to 4 T, {}", REACHES[0].label(evidence.size));
-    let criterion = Criterion::at_least(1.0).with_errors(2.0, 0.25);
+    let criterion = Criterion::at_least(1.0).with_errors(2.0, 0.05);
     built.findings.push(Finding::new(quantity, "steady increase of n_c", criterion).measured(growth));
     built.notes.push(
         "The time of a maximum is the vertex of a parabola fitted within 0.4 T of the largest mean over 0.4 T.".to_owned(),
@@ -109,7 +109,7 @@ pub fn mass(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let end = curves.jackknife(|curve| average(curve, 6.0, 7.1).map(|size| size / all));
         let quantity = format!("S/N at 6 to 7 T, {label}");
         let paper = "saturates when only a single cluster remains, to which most particles are bound";
-        let criterion = Criterion::at_least(0.9).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_least(0.9).with_errors(2.0, 0.05);
         built.findings.push(Finding::new(quantity, paper, criterion).measured(end));
         if let Some(rate) = curves.jackknife(fit(0)) {
             let rate = crate::reproduce::finding::with_error(rate);
@@ -130,7 +130,7 @@ fn exponential(label: &str) -> Finding {
     Finding::new(
         quantity,
         "seems to follow an exponential law",
-        Criterion::at_least(0.97).with_errors(2.0, 0.03),
+        Criterion::at_least(0.97).with_errors(2.0, 0.01),
     )
 }
 

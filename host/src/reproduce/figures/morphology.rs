@@ -170,7 +170,7 @@ fn maxima(
             .and_then(|curves| curves.jackknife(|curve| maximum(curve, WINDOW).map(|peak| peak.0)));
         let quantity = format!("time of the maximum of {name}, {label} (T)");
         let paper = "crossover at a time of the order of T";
-        let criterion = Criterion::between(0.5, 2.0);
+        let criterion = Criterion::between(0.5, 2.0).with_errors(2.0, 0.2);
         built.findings.push(Finding::new(quantity, paper, criterion).measured(peak));
         let quantity = format!("{name} at 6.5 to 7 T over its maximum, {label}");
         let criterion = Criterion::at_most(0.7).with_errors(2.0, 0.1);
@@ -182,7 +182,7 @@ fn maxima(
         curves.jackknife(|curve| Some(average(curve, 6.0, 7.1)? / average(curve, 3.0, 4.0)?))
     });
     let quantity = format!("{name} at 6 to 7 T over that at 3 to 4 T, {}", shortest.label(evidence.size));
-    let criterion = Criterion::at_least(1.0).with_errors(2.0, 0.25);
+    let criterion = Criterion::at_least(1.0).with_errors(2.0, 0.05);
     built.findings.push(Finding::new(quantity, "steady increase", criterion).measured(growth));
     Ok(())
 }
@@ -200,7 +200,9 @@ fn numbers_of_regions(built: &mut Built, evidence: &Evidence) -> Result<(), Repr
         });
         let quantity = format!("least M2 after 0.25 T, {label}");
         let paper = "no holes: M2 > 0 is the number of dense regions";
-        built.findings.push(Finding::new(quantity, paper, Criterion::at_least(0.0)).measured(least));
+        built.findings.push(
+            Finding::new(quantity, paper, Criterion::at_least(0.0).with_errors(2.0, 2.0)).measured(least),
+        );
         let count = of_reach(evidence, reach, Series::Observables, "clusters", None)?;
         let ratio = euler.as_ref().zip(count.as_ref()).and_then(|(euler, count)| {
             Curves::jackknife_of(&[euler, count], |curves| match curves {
@@ -226,7 +228,7 @@ fn shape_findings(built: &mut Built, evidence: &Evidence) -> Result<(), Reproduc
         let slope = curves.and_then(|curves| curves.jackknife(late_slope));
         let quantity = format!("slope of ln φ over 4 to 7 T, {} (1/T)", reach.label(evidence.size));
         let paper = "φ tends to become time-independent: self-similar growth";
-        let criterion = Criterion::equals(0.0, 0.03).with_errors(2.0, 0.03);
+        let criterion = Criterion::equals(0.0, 0.03).with_errors(2.0, 0.015);
         built.findings.push(Finding::new(quantity, paper, criterion).measured(slope));
     }
     for reach in REACHES.iter().filter(|reach| !reach.short) {
@@ -239,7 +241,7 @@ fn shape_findings(built: &mut Built, evidence: &Evidence) -> Result<(), Reproduc
             })
         });
         let quantity = format!("φ at 2.75 to 3.5 T over its maximum before, {label}");
-        let criterion = Criterion::at_most(0.95).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_most(0.95).with_errors(2.0, 0.025);
         built
             .findings
             .push(Finding::new(quantity, "a maximum followed by a decrease", criterion).measured(fall));
@@ -248,13 +250,13 @@ fn shape_findings(built: &mut Built, evidence: &Evidence) -> Result<(), Reproduc
         });
         let quantity = format!("φ at 6 to 7 T over that at 2.75 to 3.5 T, {label}");
         let paper = "increase after the collapse to a single cluster: towards a circular shape";
-        let criterion = Criterion::at_least(1.05).with_errors(2.0, 0.2);
+        let criterion = Criterion::at_least(1.05).with_errors(2.0, 0.025);
         built.findings.push(Finding::new(quantity, paper, criterion).measured(rise));
         let count = of_reach(evidence, reach, Series::Observables, "clusters", None)?;
         let single = count.and_then(|curves| curves.jackknife(single_cluster));
-        let quantity = format!("time at which half of the runs have a single cluster, {label} (T)");
+        let quantity = format!("time at which there are 1.5 clusters on average, {label} (T)");
         let paper = "collapsed to a single cluster at ≈ 6 T; completed at ≈ 5 T";
-        let criterion = Criterion::between(4.5, 6.5).with_errors(2.0, 1.0);
+        let criterion = Criterion::between(4.5, 6.5).with_errors(2.0, 0.5);
         built.findings.push(Finding::new(quantity, paper, criterion).measured(single));
     }
     built.notes.push(
