@@ -15,7 +15,7 @@ use core::fmt::Write;
 /// How much is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// The paper's numbers of discs, boxes, times and runs.
+    /// The paper's numbers of discs, boxes, times and, where it says them, runs.
     Full,
     /// Smaller boxes, fewer runs, and steps up to twice as long where discs touch: minutes instead of hours.
     Quick,
@@ -134,7 +134,8 @@ impl Campaign {
         }
     }
 
-    /// How many runs differ in nothing but the seed. Cold rings are the same for every seed.
+    /// How many runs differ in nothing but the seed; of Figs. 3 to 11 the paper does not say. Cold rings are the same for
+    /// every seed.
     #[must_use]
     pub const fn seeds(self, size: Size) -> u32 {
         match (self, size) {

@@ -63,7 +63,7 @@ pub const CATALOGUE: [Entry; 17] = [
     Entry {
         name: "fig-5",
         title: "Fig. 5: number of clusters",
-        paper: "n_c/L² against t/T for λ/L = 0.01 to 10, 10 runs. With increasing λ a λ-independent limit is reached; in it clusters form until \
+        paper: "n_c/L² against t/T for λ/L = 0.01 to 10; how many runs is not said. With increasing λ a λ-independent limit is reached; in it clusters form until \
                 ≈ 1.5 T and merge afterwards, all within ≈ 5 T. At λ/L = 0.01 n_c increases steadily.",
         campaigns: &[Campaign::Clustering],
         build: clusters::number,
@@ -154,7 +154,7 @@ pub const CATALOGUE: [Entry; 17] = [
     Entry {
         name: "meshes",
         title: "Ours: the paper's mesh beside the split force",
-        paper: "Everything in the paper is by the mesh alone, whose force on a pair is off at small distances.",
+        paper: "Not in the paper: all forces in it are the mesh's alone.",
         campaigns: &[Campaign::Clustering, Campaign::PaperMesh],
         build: meshes::build,
     },

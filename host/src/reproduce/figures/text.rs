@@ -11,6 +11,7 @@
 use super::Built;
 use crate::configuration::BOLTZMANN_CONSTANT;
 use crate::observables::estimate::Estimate;
+use crate::reproduce::campaign::PATCH_RADIUS;
 use crate::reproduce::finding::{Criterion, Finding, plain};
 use crate::theory::{Instability, jeans_time, jeans_wavenumber};
 use core::f64::consts::PI;
@@ -65,15 +66,32 @@ pub fn build() -> Built {
         finding(
             "density of the patch, Fig. 12 (1/R0²)",
             4.28e-3,
-            450.0 / (PI * 183.0 * 183.0),
+            patch_density(451.0),
             5e-6,
-            "N/(πL²)",
+            "N/(πL²), N = 451",
+        ),
+        finding(
+            "density of the patch without the disc in its middle (1/R0²)",
+            4.28e-3,
+            patch_density(450.0),
+            5e-6,
+            "450/(πL²)",
+        ),
+        finding(
+            "Jeans' time of the patch, Figs. 12 and 14 (s)",
+            95_340.0,
+            jeans_time(STRENGTH, patch_density(450.0)) * unit,
+            600.0,
+            "Eq. 7 with 450/(πL²)",
         ),
     ];
     let notes = vec![
         "ρ_h = 10 R0⁻² is meant as (10 R0)⁻², Γ as 10.6·10⁶ s/kg, K = 15.2 as mm⁻¹; \
          1/K = 43.8 µm and K_c = 22.8 mm⁻¹ belong together and contain a correction to the ideal gas. We take V0 = 0.89 kBT as given \
          and all else from Eqs. 7, 11 and 22."
+            .to_owned(),
+        "Sec. III calls L the diameter of a patch: λ/L = 1.48 at λ = 270 R0 makes it the radius. \
+         \"n_c(s ≤ 3) = 0 by definition\" holds if discs at the rim belong to the cluster of their core, as here."
             .to_owned(),
         "Two more things cannot be meant as printed: a random displacement uniform in a width of √(2DΔt) (a variance of \
          2DΔt is needed, else the diffusion constant is D/3 or D/12), and the signs and the factor of Eqs. 19 and 21 (as printed \
@@ -83,7 +101,12 @@ pub fn build() -> Built {
     Built { findings, notes, ..Built::default() }
 }
 
+/// Density of so many discs in the patch of Figs. 12 to 14, R0⁻².
+fn patch_density(discs: f64) -> f64 {
+    discs / (PI * PATCH_RADIUS * PATCH_RADIUS)
+}
+
 /// K of the patch of Figs. 12 to 14, 1/µm.
 fn patch_wavenumber() -> f64 {
-    jeans_wavenumber(STRENGTH, 451.0 / (PI * 183.0 * 183.0)) / (RADIUS * 1e6)
+    jeans_wavenumber(STRENGTH, patch_density(451.0)) / (RADIUS * 1e6)
 }
