@@ -33,11 +33,12 @@ pub fn build(evidence: &Evidence, short: bool) -> Result<Built, ReproduceError> 
         .map(|look| look.reach)
         .filter(|reach| !short || SHORT.contains(&reach.paper))
         .collect();
-    let (mut rows, mut pictures) = (Vec::new(), Vec::new());
+    let (mut rows, mut pictures, mut seeds) = (Vec::new(), Vec::new(), Vec::new());
     for reach in &reaches {
         let frames = first_frames(&evidence.reach(reach))?;
         if let Some((run, frames)) = frames {
             rows.push(reach.label(evidence.size));
+            seeds.push(run.configuration.seed.to_string());
             for frame in frames {
                 pictures.push(panel(run, frame)?);
             }
@@ -47,7 +48,8 @@ pub fn build(evidence: &Evidence, short: bool) -> Result<Built, ReproduceError> 
     if !pictures.is_empty() {
         let figure = Figure::disc_grid("", &columns, &rows, pictures);
         let caption = format!(
-            "Discs at T, 3 T and 5 T, {range} attraction; red: discs in clusters. The runs of seed 1."
+            "Discs at T, 3 T and 5 T, {range} attraction; red: discs in clusters. Seeds of the runs, from the top: {}.",
+            seeds.join(", ")
         );
         built.draw(name, &caption, &figure)?;
     }
@@ -55,7 +57,7 @@ pub fn build(evidence: &Evidence, short: bool) -> Result<Built, ReproduceError> 
     Ok(built)
 }
 
-/// The frames at the times of the figures of the first run that has them all.
+/// The first run and its frames at the times of the figures, if it has them all.
 fn first_frames<'a>(
     runs: &[&'a FinishedRun],
 ) -> Result<Option<(&'a FinishedRun, Vec<Recorded>)>, ReproduceError> {

@@ -119,14 +119,10 @@ fn of_campaign(campaign: &CampaignRecord) -> String {
         text.push_str("| hash | seed | λ / R0 | steps | digest |\n|---|---|---|---|---|\n");
     }
     for run in &campaign.runs {
-        let length = if run.capillary_length.is_finite() {
-            run.capillary_length.to_string()
-        } else {
-            "∞".to_owned()
-        };
+        // Infinity is `inf`, as the command takes it.
         text.push_str(&format!(
-            "| {} | {} | {length} | {} | {} |\n",
-            run.hash, run.seed, run.steps, run.digest
+            "| {} | {} | {} | {} | {} |\n",
+            run.hash, run.seed, run.capillary_length, run.steps, run.digest
         ));
     }
     text.push('\n');
