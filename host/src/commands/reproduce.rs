@@ -15,8 +15,11 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-/// How often the report is written while runs are made.
+/// How often the report is written while runs are made, at most.
 const REPORT_INTERVAL: Duration = Duration::from_secs(60);
+
+/// Share of the time that goes into reports while runs are made, inverted: nothing is run meanwhile.
+const RUNS_PER_REPORT: u32 = 20;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -58,7 +61,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let rounds = if arguments.draw_only { Vec::new() } else { rounds(&entries, size, arguments.seeds) };
     let mut failures: Vec<(String, usize, String)> = Vec::new();
     let (mut unfinished, mut elsewhere) = (0, 0);
-    let mut written = Instant::now();
+    let (mut written, mut took) = (Instant::now(), Duration::ZERO);
     for (number, round) in rounds.iter().enumerate() {
         let count = sweep(round.campaign, size, Some(round.seeds))?.members().len();
         let name = round.campaign.name();
@@ -78,9 +81,10 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         if unfinished > 0 || stop.load(Ordering::Relaxed) {
             break;
         }
-        if written.elapsed() >= REPORT_INTERVAL {
+        if written.elapsed() >= REPORT_INTERVAL.max(RUNS_PER_REPORT * took) {
+            let begun = Instant::now();
             write(&report_on(&entries, &directory, size, arguments.seeds)?, &directory)?;
-            written = Instant::now();
+            (written, took) = (Instant::now(), begun.elapsed());
         }
     }
     let report = report_on(&entries, &directory, size, arguments.seeds)?;
