@@ -27,6 +27,7 @@ use super::Figure;
 use crate::configuration::ConfigurationError;
 use crate::files::table::Table;
 use crate::files::{FileError, FormatError};
+use crate::observables::series::Series;
 use groups::Group;
 use std::path::{Path, PathBuf};
 
@@ -34,7 +35,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum TablesError {
     /// There is nothing to draw.
-    #[error("{}: found no table with rows, expected at least one of {}: name the directory of a run or of an ensemble", .0.display(), NAMES.join(", "))]
+    #[error("{}: found no table with rows, expected at least one of {}: name the directory of a run or of an ensemble", .0.display(), Series::ALL.map(Series::file_name).join(", "))]
     NoTables(PathBuf),
     /// A table is not what it should be.
     #[error(transparent)]
@@ -44,31 +45,23 @@ pub enum TablesError {
     Configuration(#[from] ConfigurationError),
 }
 
-/// The tables that are drawn.
-const NAMES: [&str; 6] = [
-    "observables.csv",
-    "minkowski.csv",
-    "modes.csv",
-    "radial_distribution.csv",
-    "structure_factor.csv",
-    "radii.csv",
-];
-
 /// A figure and its name, which is that of a file without its ending.
 pub type Named = (String, Figure);
 
 /// What makes figures of the groups of a table.
 type Builder = fn(&[Group]) -> Result<Vec<Named>, FormatError>;
 
-/// What makes the figures of each of [`NAMES`].
-const BUILDERS: [Builder; 6] = [
-    observables::figures,
-    minkowski::figures,
-    modes::figures,
-    profiles::radial_distribution,
-    profiles::structure_factor,
-    radii::figures,
-];
+/// What makes the figures of a series' table.
+const fn builder(series: Series) -> Builder {
+    match series {
+        Series::Observables => observables::figures,
+        Series::Minkowski => minkowski::figures,
+        Series::Modes => modes::figures,
+        Series::RadialDistribution => profiles::radial_distribution,
+        Series::StructureFactor => profiles::structure_factor,
+        Series::Radii => radii::figures,
+    }
+}
 
 /// All figures of the tables in `directory`.
 ///
@@ -76,8 +69,8 @@ const BUILDERS: [Builder; 6] = [
 /// [`TablesError`] if there is no table with rows, or if one cannot be read.
 pub fn figures(directory: &Path) -> Result<Vec<Named>, TablesError> {
     let mut figures = Vec::new();
-    for (name, build) in NAMES.into_iter().zip(BUILDERS) {
-        let path = directory.join(name);
+    for series in Series::ALL {
+        let path = directory.join(series.file_name());
         if !path.exists() {
             continue;
         }
@@ -86,7 +79,7 @@ pub fn figures(directory: &Path) -> Result<Vec<Named>, TablesError> {
             continue;
         }
         let groups = groups::groups(directory, table, &path)?;
-        figures.extend(build(&groups).map_err(|problem| FileError::Read { path, problem })?);
+        figures.extend(builder(series)(&groups).map_err(|problem| FileError::Read { path, problem })?);
     }
     if figures.is_empty() {
         return Err(TablesError::NoTables(directory.to_owned()));
