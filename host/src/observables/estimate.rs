@@ -31,16 +31,22 @@ impl Estimate {
     pub fn agrees_with(&self, expected: f64, standard_errors: f64) -> bool {
         (self.value - expected).abs() <= standard_errors * self.error
     }
+
+    /// How many digits after the point leave two of the error; None unless it is finite and above 0.
+    #[must_use]
+    pub fn digits(&self) -> Option<usize> {
+        let measured = self.error > 0.0 && self.error.is_finite();
+        measured.then(|| (1.0 - libm::floor(libm::log10(self.error))).clamp(0.0, 17.0) as usize)
+    }
 }
 
 /// Both with the digits that leave two of the error.
 impl fmt::Display for Estimate {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { value, error } = self;
-        if !(*error > 0.0 && error.is_finite()) {
-            return write!(formatter, "{value}");
+        match self.digits() {
+            Some(digits) => write!(formatter, "{value:.digits$} +- {error:.digits$}"),
+            None => write!(formatter, "{value}"),
         }
-        let digits = (1.0 - libm::floor(libm::log10(*error))).clamp(0.0, 17.0) as usize;
-        write!(formatter, "{value:.digits$} +- {error:.digits$}")
     }
 }

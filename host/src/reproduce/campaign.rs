@@ -77,14 +77,18 @@ pub const THRESHOLDS: [f64; 7] = [0.1, 0.14, 0.2, 0.3, 0.4, 0.6, 0.8];
 /// Threshold of the density of Figs. 8 to 11, of ρ_m.
 pub const THRESHOLD: f64 = 0.14;
 
+/// A product that is not quite what its decimals say.
+fn rounded(product: f64) -> f64 {
+    (product * 1e6).round() / 1e6
+}
+
 impl Reach {
     /// λ in R0. In a smaller box a short λ stays what it is, as λK decides; a long one keeps λ/L, as nothing else is left
     /// that could.
     #[must_use]
     pub fn length(&self, size: Size) -> f64 {
         let side = if self.short { PAPER_SIDE } else { side(size) };
-        // Some products are not what their decimals say.
-        (self.paper * side * 1e6).round() / 1e6
+        rounded(self.paper * side)
     }
 
     /// How legends call it.
@@ -257,9 +261,7 @@ impl Campaign {
     pub fn lengths(self, size: Size) -> Vec<f64> {
         match self {
             Self::Clustering => REACHES.iter().map(|reach| reach.length(size)).collect(),
-            Self::Rings => {
-                RING_REACHES.iter().map(|reach| (reach * PATCH_RADIUS * 1e6).round() / 1e6).collect()
-            }
+            Self::Rings => RING_REACHES.map(|reach| rounded(reach * PATCH_RADIUS)).to_vec(),
             Self::Modes | Self::Disc | Self::PaperMesh => Vec::new(),
         }
     }

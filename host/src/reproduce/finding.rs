@@ -209,11 +209,10 @@ pub fn with_error(estimate: Estimate) -> String {
     if error.is_nan() {
         return format!("{} (one run)", plain(value));
     }
-    if error == 0.0 || !error.is_finite() {
-        return plain(value);
+    match estimate.digits() {
+        Some(digits) => format!("{value:.digits$} ± {error:.digits$}"),
+        None => plain(value),
     }
-    let digits = (1.0 - libm::floor(libm::log10(error))).clamp(0.0, 17.0) as usize;
-    format!("{value:.digits$} ± {error:.digits$}")
 }
 
 /// A number with four significant digits and no more zeros than it needs.

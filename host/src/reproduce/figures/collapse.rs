@@ -9,7 +9,7 @@ use crate::observables::collapse_fit::{CollapseFit, Conditions, fit};
 use crate::observables::estimate::Estimate;
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
-use crate::reproduce::campaign::{Campaign, PATCH_RADIUS, RING_REACHES};
+use crate::reproduce::campaign::{Campaign, PATCH_RADIUS};
 use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
 use crate::reproduce::finding::{Criterion, Finding, with_error};
 use crate::reproduce::statistics::{Curve, Curves};
@@ -256,14 +256,14 @@ pub fn lengths(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let mut built = Built::default();
     let mut chart = Chart::new("", time_axis(), Axis::linear("R", "R_0"));
     let (mut delays, mut theories) = (Vec::new(), Vec::new());
-    for (index, reach) in RING_REACHES.iter().enumerate() {
-        let length = (reach * PATCH_RADIUS * 1e6).round() / 1e6;
+    let lengths = Campaign::Rings.lengths(evidence.size);
+    for (index, &length) in lengths.iter().enumerate() {
         let runs = evidence.with_length(Campaign::Rings, length);
         let Some(run) = runs.first() else { continue };
         let Some(&outermost) = groups(run)?.last() else { continue };
         let curves = radii(&runs, outermost)?;
         let last = LAST_OVER_INITIAL * outermost.initial;
-        let colour = Colour::ordered(index, RING_REACHES.len());
+        let colour = Colour::ordered(index, lengths.len());
         add(&mut chart, &ring_label(length), colour, index, &curves, last);
         let label = if theories.is_empty() { "mean-field shells" } else { "" };
         theories.push(theory(run, outermost, label, Colour::Black, Dash::Dashed));
@@ -275,7 +275,7 @@ pub fn lengths(evidence: &Evidence) -> Result<Built, ReproduceError> {
     built.draw("fig-13", caption, &Figure::new("", [Panel::Chart(chart)]))?;
     let value =
         |length: f64| delays.iter().find(|(found, ..)| *found == length).and_then(|(_, delay, _)| *delay);
-    for pair in RING_REACHES.map(|reach| (reach * PATCH_RADIUS * 1e6).round() / 1e6).windows(2) {
+    for pair in lengths.windows(2) {
         let [shorter, longer] = pair else { continue };
         let difference = value(*shorter).zip(value(*longer)).map(|(first, second)| Estimate {
             value: first.value - second.value,
