@@ -244,6 +244,9 @@ fn a_file_without_its_run_says_what_it_needs() {
     program.refuse(&["analyze", "run", "--out", "run"], &["run/observables.csv", "exist"]);
     assert!(!program.folder().join("run/trajectory-analysis").exists(), "a refusal leaves nothing");
 
+    run(&program, &["disc.toml", "--out", "unfilmed", "--set", "output.trajectory=0"]);
+    program.refuse(&["analyze", "unfilmed"], &["unfilmed/trajectory", "found no frame, expected at least 1"]);
+
     analyze(&program, &["alone-final.csv", "--box", "48", "--series", "minkowski", "--out", "one"]);
     let last =
         |table: &str| table.lines().last().unwrap().split(',').skip(3).map(str::to_owned).collect::<Vec<_>>();

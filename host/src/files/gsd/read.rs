@@ -33,6 +33,9 @@ impl<R: Read + Seek> GsdReader<R> {
         let mut container = Container::open(input)?;
         let torus = match torus {
             Some(torus) => *torus,
+            None if container.frames() == 0 => {
+                return Err(wrong("no frame".to_owned(), "at least 1".to_owned()));
+            }
             None => box_of(&mut container, 0)?.into_torus()?,
         };
         Ok(Self { container, torus })
