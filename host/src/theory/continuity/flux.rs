@@ -26,7 +26,8 @@ pub(super) fn rates(
         let [forward, backward] = match pressure {
             Pressure::None => upwind([before, first, second, after].map(|cell| density[cell]), drop),
             Pressure::IdealGas | Pressure::HardDiscs { .. } => {
-                [bernoulli(-drop) * density[first], bernoulli(drop) * density[second]]
+                let [forward, backward] = bernoulli_of_both_signs(drop);
+                [forward * density[first], backward * density[second]]
             }
         };
         rates[first] += per_area * (backward - forward);
@@ -48,9 +49,11 @@ pub(super) fn rates(
     Flow { rates, largest_loss }
 }
 
-/// B(x) = x/(eˣ − 1), 1 at x = 0.
-fn bernoulli(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { x / libm::expm1(x) }
+/// B(−x) and B(x) of B(x) = x/(eˣ − 1), 1 at x = 0; by B(−x) = B(x) + x one exponential makes both.
+fn bernoulli_of_both_signs(x: f64) -> [f64; 2] {
+    let modulus = x.abs();
+    let lesser = if modulus == 0.0 { 1.0 } else { modulus / libm::expm1(modulus) };
+    if x >= 0.0 { [lesser + modulus, lesser] } else { [lesser, lesser + modulus] }
 }
 
 /// h² times the flow between the middle two of four cells, either way, when U is higher by `drop` in the second:
