@@ -11,6 +11,7 @@ use crate::reproduce::evidence::sweep;
 use crate::reproduce::finding::Verdict as Found;
 use crate::reproduce::report::Report;
 use crate::reproduce::{HTML, MARKDOWN, Machinery, advance, report_on, rounds, write};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -60,7 +61,9 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let machinery = Machinery { workers, deadline, stop: &stop };
     let rounds = if arguments.draw_only { Vec::new() } else { rounds(&entries, size, arguments.seeds) };
     let mut failures: Vec<(String, usize, String)> = Vec::new();
-    let (mut unfinished, mut elsewhere) = (0, 0);
+    let mut unfinished = 0;
+    // By campaigns: a later turn of one sees the runs of the earlier again.
+    let mut elsewhere = BTreeMap::new();
     let (mut written, mut took) = (Instant::now(), Duration::ZERO);
     for (number, round) in rounds.iter().enumerate() {
         let count = sweep(round.campaign, size, Some(round.seeds))?.members().len();
@@ -77,7 +80,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         let reason = |error: &MemberError| error.to_string().replace('\n', " ");
         failures.extend(outcome.failures().map(|(index, error)| (name.to_owned(), index, reason(error))));
         unfinished = outcome.count(|fate| matches!(fate, Fate::Stopped(_) | Fate::Waiting));
-        elsewhere += outcome.count(|fate| matches!(fate, Fate::Elsewhere));
+        elsewhere.insert(name, outcome.count(|fate| matches!(fate, Fate::Elsewhere)));
         if unfinished > 0 || stop.load(Ordering::Relaxed) {
             break;
         }
@@ -93,6 +96,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         let directory = quoted(&directory.display().to_string());
         reporter.note(&format!("stopped; the same command goes on, with --out {directory}"));
     }
+    let elsewhere: usize = elsewhere.into_values().sum();
     if elsewhere > 0 {
         reporter.note(&format!("{elsewhere} runs are at work in another program"));
     }

@@ -31,12 +31,13 @@ fn head(report: &Report) -> String {
     let size = match report.size {
         Size::Full => {
             "The numbers of discs, boxes and times are those of the paper, and so are those of runs for Figs. 2 and 14; for \
-             Figs. 3 to 11, where it does not say, there are ten."
+             Figs. 3 to 11, where it does not say, there are ten (unless the campaigns below have others)."
         }
         Size::Quick => {
             "This is the quick version: for Figs. 3 to 11 a quarter of the discs (625) at the paper's density, so at the \
              same Jeans' time and wavenumber; fewer runs, those of Figs. 12 to 14 shorter; and a ceiling of the time step twice the default (four \
-             times for cold rings). Short capillary lengths keep λK, long ones λ/L."
+             times for cold rings). Short capillary lengths keep λK, long ones λ/L. Standard errors of so few runs are rough \
+             themselves: a verdict near its bound may be another with other seeds."
         }
         Size::Tiny => "This is a test of the machinery: nothing in it says anything of physics.",
     };
