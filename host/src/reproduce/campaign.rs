@@ -172,88 +172,39 @@ impl Campaign {
     }
 
     /// What it changes without calculating.
-    const fn own(self, size: Size) -> &'static [&'static str] {
-        match (self, size) {
-            (Self::Rings | Self::Disc, Size::Full) => &["output.trajectory=0", "output.snapshots=0"],
-            (Self::Rings, Size::Quick) => {
-                &["time.until=1.35", "output.trajectory=0", "output.snapshots=0", "motion.max_step=0.004"]
+    fn own(self, size: Size) -> Vec<&'static str> {
+        let tables: &[&str] = match (self, size) {
+            (Self::Rings | Self::Disc | Self::Modes, _) => &["output.trajectory=0"],
+            (_, Size::Tiny) => {
+                &["output.observables=0.01", "output.minkowski=0.01", "output.trajectory=0.01"]
             }
-            (Self::Disc, Size::Quick) => {
-                &["time.until=1.6", "output.trajectory=0", "output.snapshots=0", "motion.max_step=0.002"]
+            _ => &["output.observables=0.05", "output.minkowski=0.05", "output.trajectory=1"],
+        };
+        let steps: &[&str] = match (self, size) {
+            (_, Size::Full) => &[],
+            (Self::Rings, Size::Quick) => &["time.until=1.35", "motion.max_step=0.004"],
+            (Self::Disc, Size::Quick) => &["time.until=1.6", "motion.max_step=0.002"],
+            (_, Size::Quick) => &["motion.max_step=0.002"],
+            (_, Size::Tiny) => &["time.until=0.05", "motion.max_step=0.02"],
+        };
+        let system: &[&str] = match (self, size) {
+            (_, Size::Full) | (Self::Rings | Self::Disc | Self::Modes, Size::Quick) => &[],
+            (Self::Clustering | Self::PaperMesh, Size::Quick) => &["system.particles=625"],
+            (Self::Rings, Size::Tiny) => {
+                &["system.particles=13", "start.rings=2", "start.per_ring=4", "system.box=160"]
             }
-            (Self::Rings, Size::Tiny) => &[
-                "system.particles=13",
-                "start.rings=2",
-                "start.per_ring=4",
-                "system.box=160",
-                "time.until=0.05",
-                "output.trajectory=0",
-                "output.snapshots=0",
-                "motion.max_step=0.02",
-                "force.method=pm",
-                "mesh.grid=64",
-            ],
-            (Self::Disc, Size::Tiny) => &[
-                "system.particles=20",
-                "start.radius=40",
-                "system.box=160",
-                "time.until=0.05",
-                "output.trajectory=0",
-                "output.snapshots=0",
-                "motion.max_step=0.02",
-                "force.method=pm",
-                "mesh.grid=64",
-            ],
-            (Self::Modes, Size::Full) => &["output.trajectory=0", "output.snapshots=0"],
-            (Self::Modes, Size::Quick) => {
-                &["output.trajectory=0", "output.snapshots=0", "motion.max_step=0.002"]
-            }
-            (Self::Modes, Size::Tiny) => &[
-                "system.particles=40",
-                "system.box=63",
-                "time.until=0.05",
-                "output.trajectory=0",
-                "output.snapshots=0",
-                "motion.max_step=0.02",
-                "force.method=pm",
-                "mesh.grid=32",
-            ],
-            (Self::Clustering, Size::Full) | (Self::PaperMesh, Size::Full) => &[
-                "output.observables=0.05",
-                "output.minkowski=0.05",
-                "output.trajectory=1",
-                "output.snapshots=0",
-            ],
-            (Self::Clustering, Size::Quick) | (Self::PaperMesh, Size::Quick) => &[
-                "system.particles=625",
-                "output.observables=0.05",
-                "output.minkowski=0.05",
-                "output.trajectory=1",
-                "output.snapshots=0",
-                "motion.max_step=0.002",
-            ],
-            (Self::Clustering, Size::Tiny) => &[
-                "system.particles=25",
-                "time.until=0.05",
-                "output.observables=0.01",
-                "output.minkowski=0.01",
-                "output.trajectory=0.01",
-                "output.snapshots=0",
-                "motion.max_step=0.02",
-                "force.method=pm",
-                "mesh.grid=32",
-            ],
-            (Self::PaperMesh, Size::Tiny) => &[
-                "system.particles=25",
-                "time.until=0.05",
-                "output.observables=0.01",
-                "output.minkowski=0.01",
-                "output.trajectory=0.01",
-                "output.snapshots=0",
-                "motion.max_step=0.02",
-                "mesh.grid=16",
-            ],
-        }
+            (Self::Disc, Size::Tiny) => &["system.particles=20", "start.radius=40", "system.box=160"],
+            (Self::Modes, Size::Tiny) => &["system.particles=40", "system.box=63"],
+            (Self::Clustering | Self::PaperMesh, Size::Tiny) => &["system.particles=25"],
+        };
+        // The accuracy's choice of a mesh takes longer than such a run.
+        let mesh: &[&str] = match (self, size) {
+            (_, Size::Full | Size::Quick) => &[],
+            (Self::Rings | Self::Disc, Size::Tiny) => &["force.method=pm", "mesh.grid=64"],
+            (Self::Modes | Self::Clustering, Size::Tiny) => &["force.method=pm", "mesh.grid=32"],
+            (Self::PaperMesh, Size::Tiny) => &["mesh.grid=16"],
+        };
+        [system, steps, mesh, tables, &["output.snapshots=0"]].concat()
     }
 
     /// The capillary lengths it goes through, R0; none if the preset's is all.
