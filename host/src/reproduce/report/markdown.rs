@@ -31,13 +31,12 @@ fn head(report: &Report) -> String {
     let size = match report.size {
         Size::Full => {
             "The numbers of discs, boxes and times are those of the paper, and so are those of runs for Figs. 2 and 14; for \
-             Figs. 3 to 11, where it does not say, there are ten (unless the campaigns below have others)."
+             Figs. 3 to 11, where it does not say, ten are meant to be; each section says how many have finished."
         }
         Size::Quick => {
             "This is the quick version: for Figs. 3 to 11 a quarter of the discs (625) at the paper's density, so at the \
              same Jeans' time and wavenumber; fewer runs, those of Figs. 12 to 14 shorter; and a ceiling of the time step twice the default (four \
-             times for cold rings). Short capillary lengths keep λK, long ones λ/L. Standard errors of so few runs are rough \
-             themselves: a verdict near its bound may be another with other seeds."
+             times for cold rings). Short capillary lengths keep λK, long ones λ/L."
         }
         Size::Tiny => "This is a test of the machinery: nothing in it says anything of physics.",
     };
@@ -47,7 +46,8 @@ fn head(report: &Report) -> String {
          figure: what the paper says, what meniscus {version} finds, and whether the two are the same. {size}\n\n\
          Lengths are in disc radii R0, energies in kBT, times in Jeans' times T unless said otherwise. A number after ± is \
          one standard error (s.e.), over runs by the jackknife unless said otherwise. A verdict is computed from the \
-         numbers beside it, by the criterion beside it, and undecided where the error is too large for that or unknown; of what is ours, reproduced means as expected.\n\n",
+         numbers beside it, by the criterion beside it, and undecided where the error is too large for that or unknown; of what is ours, reproduced means as expected. A standard error of n runs is itself uncertain by \
+         1/√(2n − 2) of it, one half for three runs: a verdict near its bound may then be another with other seeds.\n\n",
         version = env!("CARGO_PKG_VERSION"),
     )
 }
