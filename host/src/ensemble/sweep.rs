@@ -51,12 +51,6 @@ impl Sweep {
         &self.members
     }
 
-    /// The seeds, in the order of the sweep.
-    #[must_use]
-    pub fn seeds(&self) -> &[u64] {
-        &self.given.seeds
-    }
-
     /// The swept keys, in the order of the sweep.
     pub fn keys(&self) -> impl ExactSizeIterator<Item = &str> {
         self.given.axes.iter().map(|axis| axis.key.as_str())

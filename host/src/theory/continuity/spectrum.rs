@@ -10,11 +10,11 @@ use rustfft::num_complex::Complex;
 /// ```
 /// use meniscus::theory::continuity::{Spectrum, sinusoid};
 ///
-/// let spectrum = Spectrum::new(100.0, 16, &sinusoid(16, 0.01, 0.1, [3, 0]));
-/// // 100 discs, of which a wave has half its amplitude in either of ±k; 16 waves are in the third shell.
-/// let amplitudes = spectrum.amplitudes(4);
-/// assert!((amplitudes[2] - 2.0 * 5.0 / 16.0).abs() < 1e-12);
-/// assert!(amplitudes[0] < 1e-12);
+/// let [before, later] = [0.1, 0.2].map(|height| Spectrum::new(100.0, 16, &sinusoid(16, 0.01, height, [3, 0])));
+/// // The wave is twice as high; in the first shell there is none.
+/// let growth = later.log_growth(&before, 4);
+/// assert!((growth[2].unwrap() - 2.0_f64.ln()).abs() < 1e-12);
+/// assert_eq!(growth[0], None);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Spectrum {
@@ -33,13 +33,6 @@ impl Spectrum {
         let mut numbers: Vec<f64> = density.iter().map(|density| area * density).collect();
         numbers.resize(cells * cells, 0.0);
         Self { cells, waves: Transform::new(cells).forward(&numbers) }
-    }
-
-    /// The mean |ρ̂_k| of the shells 1 to `shells`; fewer if the mesh has no more whole ones, n/2 − 1.
-    #[must_use]
-    pub fn amplitudes(&self, shells: usize) -> Vec<f64> {
-        let amplitude = |index: usize| Some(self.waves[index].norm());
-        self.means(shells, amplitude).into_iter().map(|mean| mean.unwrap_or(0.0)).collect()
     }
 
     /// The mean ln(|ρ̂_k|/|ρ̂_k(0)|) of the shells 1 to `shells` since `initial`, over waves that are there both times: below
