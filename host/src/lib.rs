@@ -23,6 +23,7 @@ pub mod run;
 pub mod simulation;
 pub mod snapshot;
 pub mod start;
+pub mod statistics;
 pub mod strengths;
 pub mod theory;
 pub mod verification;

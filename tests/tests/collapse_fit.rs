@@ -2,9 +2,9 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use meniscus::observables::collapse_fit::{CollapseFitError, Conditions, fit};
-use meniscus::observables::estimate::Estimate;
 use meniscus::observables::radii::Groups;
 use meniscus::start;
+use meniscus::statistics::Estimate;
 use meniscus::theory::collapse_fit;
 use meniscus_core::torus::{Position, Torus};
 use meniscus_tests::fits::{delay_of_collapse, minimum};

@@ -6,10 +6,10 @@ use core::f64::consts::TAU;
 
 use meniscus::configuration::Configuration;
 use meniscus::engine::Engine;
-use meniscus::observables::estimate::Estimate;
 use meniscus::observables::modes::growth::{Growth, growth_ratio};
 use meniscus::observables::waves::{Waves, order};
 use meniscus::simulation::Simulation;
+use meniscus::statistics::Estimate;
 use meniscus_core::dynamics::Clock;
 use meniscus_core::parameters::Parameters;
 use meniscus_core::units::time_from_units;
@@ -87,7 +87,7 @@ fn within(modes: &[Mode], range: core::ops::Range<f64>) -> Vec<Growth> {
 
 /// Fails unless the growth rate is that of Eq. 10 and the statistics suffice to tell.
 fn assert_growth_of_theory(modes: &[Growth], resolution: f64, what: &str) {
-    let Estimate { value: ratio, error } = growth_ratio(modes).unwrap();
+    let Estimate { value: ratio, error, .. } = growth_ratio(modes).unwrap();
     let accepted = GROWTH_SIGMAS * error + GROWTH_OF_LONG_WAVES;
     assert_within(ratio, Within(1.0 - accepted, 1.0 + accepted), &format!("growth rate over Eq. 10, {what}"));
     assert_within(error, Within(0.0, resolution), &format!("its standard error, {what}"));

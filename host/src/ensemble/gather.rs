@@ -11,7 +11,6 @@ use super::bins::Bins;
 use super::error::{EnsembleError, MemberError};
 use super::member::{Member, Setting};
 use super::standing::{Finished, Standing};
-use super::statistics::Sample;
 use super::sweep::Sweep;
 use super::{MEMBERS, SWEEP};
 use crate::configuration::{Configuration, Start};
@@ -19,6 +18,7 @@ use crate::files::atomic::write_atomically;
 use crate::files::table::{Table, TableText};
 use crate::files::{FileError, FormatError};
 use crate::observables::series::{HEAD_COLUMNS, Series};
+use crate::statistics::Sample;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -123,7 +123,9 @@ fn series_table(
         let mut groups = Groups::default();
         for member in members {
             let Some(Ok(Standing::Finished(finished))) = standings.get(member.index - 1) else { continue };
-            let Some(bins) = Bins::of(series, &member.configuration.output, finished) else { continue };
+            let Some(bins) = Bins::of(series, &member.configuration.output, finished) else {
+                continue;
+            };
             let path = member.directory(directory).join(series.file_name());
             let table = Table::read(&path)?;
             refuse_columns(series, &table, &path)?;

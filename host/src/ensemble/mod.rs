@@ -57,7 +57,6 @@ mod pool;
 mod read;
 mod selection;
 mod standing;
-mod statistics;
 mod sweep;
 
 pub use error::{EnsembleError, MemberError};

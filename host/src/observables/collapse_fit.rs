@@ -23,7 +23,7 @@
 //! assert_eq!((fitted.samples, fitted.final_radius.error), (89, 0.0));
 //! ```
 
-use super::estimate::Estimate;
+use crate::statistics::Estimate;
 use crate::theory::collapse_fit;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
@@ -145,7 +145,7 @@ pub fn fit(samples: &[(f64, f64)], conditions: &Conditions) -> Result<CollapseFi
     let mut estimates = problem.parameters.iter().zip(errors.iter());
     let mut next = |held: Option<f64>| match held {
         Some(value) => Some(Estimate::exact(value)),
-        None => estimates.next().map(|(&value, &error)| Estimate { value, error }),
+        None => estimates.next().map(|(&value, &error)| Estimate::new(value, error)),
     };
     let (delay, initial, last) = (next(None), next(held[0]), next(held[1]));
     let (Some(delay), Some(initial_radius), Some(final_radius)) = (delay, initial, last) else {

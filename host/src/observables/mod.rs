@@ -7,7 +7,6 @@
 //! - [`modes`]: density modes by shells and their growth (Fig. 2)
 //! - [`structure_factor`], [`radial_distribution`]: S(k) and g(r)
 //! - [`radii`]: radii of rings and shells; [`collapse_fit`]: the fit of Eq. 30 to them (Figs. 12 to 14)
-//! - [`estimate`]: a value with its standard error
 //! - [`series`]: tables of observables that a run writes at their own cadence
 //! - [`density`]: the number density on a grid
 //! - [`minkowski`]: area, boundary and Euler characteristic of where it is high (Figs. 7 to 11)
@@ -16,7 +15,6 @@ pub mod clusters;
 pub mod collapse_fit;
 pub mod density;
 pub mod energy;
-pub mod estimate;
 pub mod minkowski;
 pub mod modes;
 pub mod neighbours;

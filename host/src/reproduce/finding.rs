@@ -4,18 +4,23 @@
 //! paper's claim. So the same report from other seeds may come to other verdicts.
 //!
 //! ```
-//! use meniscus::observables::estimate::Estimate;
 //! use meniscus::reproduce::finding::{Criterion, Finding, Verdict};
+//! use meniscus::statistics::Estimate;
 //!
 //! let finding = Finding::new("A0 of ring 7", "1.15", Criterion::equals(1.15, 0.01))
-//!     .measured(Some(Estimate { value: 1.1498, error: 0.0004 }));
+//!     .measured(Some(Estimate::new(1.1498, 0.0004)));
 //! assert_eq!(finding.verdict(), Verdict::Reproduced);
 //! assert_eq!(finding.ours(), "1.14980 ± 0.00040");
+//!
+//! // Had it been measured in two runs only, that error would say little.
+//! let few = Finding { measured: Some(Estimate { value: 1.165, error: 0.005, degrees: 1.0 }), ..finding };
+//! assert_eq!((few.verdict(), few.ours().as_str()), (Verdict::Undecided, "1.1650 ± 0.0050 (ν = 1)"));
 //! ```
 
-use crate::observables::estimate::Estimate;
+use crate::statistics::{Estimate, confidence};
 
-/// Standard errors that a measured value may lie outside of what counts, unless a criterion says otherwise.
+/// Standard errors that a measured value may lie outside of what counts, unless a criterion says otherwise; of few degrees
+/// of freedom as many as are as sure ([`Estimate::margin`]).
 const STANDARD_ERRORS: f64 = 2.0;
 
 /// What a comparison came to.
@@ -57,9 +62,9 @@ pub enum Criterion {
         least: f64,
         /// The largest.
         most: f64,
-        /// Standard errors it may lie outside.
+        /// Standard errors it may lie outside, if their number of degrees of freedom were large.
         standard_errors: f64,
-        /// The largest standard error with which a value that close to a bound says anything.
+        /// The largest standard error of that kind with which a value that close to a bound says anything.
         resolution: f64,
     },
     /// Two numbers that the paper gives, or that follow from what it gives, are the same within their rounding.
@@ -80,10 +85,11 @@ impl Criterion {
         Self::between(expected - tolerance, expected + tolerance)
     }
 
-    /// At least `least` and at most `most`.
+    /// At least `least` and at most `most`; as exactly as that, or with no error where one of them is infinite.
     #[must_use]
     pub fn between(least: f64, most: f64) -> Self {
-        let resolution = 0.5 * (most - least);
+        let width = most - least;
+        let resolution = if width.is_finite() { 0.5 * width } else { 0.0 };
         Self::Between { least, most, standard_errors: STANDARD_ERRORS, resolution }
     }
 
@@ -122,15 +128,15 @@ impl Criterion {
                 Verdict::Reproduced
             }
             Self::Consistent { .. } => Verdict::PaperInconsistent,
-            Self::Between { least, most, standard_errors, resolution } => {
-                let Some(Estimate { value, error }) = measured else { return Verdict::Undecided };
-                let margin = standard_errors * error;
+            Self::Between { least, most, standard_errors, resolution, .. } => {
+                let Some(estimate) = measured else { return Verdict::Undecided };
+                let (value, margin) = (estimate.value, estimate.margin(standard_errors));
                 let within = |margin: f64| (least + margin..=most - margin).contains(&value);
-                if value.is_nan() || error.is_nan() {
+                if value.is_nan() || !margin.is_finite() {
                     Verdict::Undecided
                 } else if !within(-margin) {
                     Verdict::NotReproduced
-                } else if within(margin) || error <= resolution {
+                } else if within(margin) || margin <= standard_errors * resolution {
                     Verdict::Reproduced
                 } else {
                     Verdict::Undecided
@@ -152,12 +158,13 @@ impl Criterion {
                     (true, false) => format!("at least {}", plain(least)),
                     _ => format!("at most {}", plain(most)),
                 };
-                let most_error = if resolution.is_finite() {
-                    format!(" of at most {}", plain(resolution))
+                let margin = format!("{standard_errors} s.e. ({:.2} %)", 100.0 * confidence(standard_errors));
+                if resolution > 0.0 {
+                    let most = plain(standard_errors * resolution);
+                    format!("{range}, or up to {margin} outside if they are at most {most}")
                 } else {
-                    String::new()
-                };
-                format!("{range}, or up to {standard_errors} s.e.{most_error} outside")
+                    format!("{range}, with a margin of {margin}")
+                }
             }
         }
     }
@@ -170,7 +177,7 @@ pub struct Finding {
     pub quantity: String,
     /// What the paper says of it.
     pub paper: String,
-    /// What was measured, in the same unit; an error that is not a number is that of a single run.
+    /// What was measured, in the same unit; an error without degrees of freedom is that of a single run.
     pub measured: Option<Estimate>,
     /// What counts as the paper's claim.
     pub criterion: Criterion,
@@ -202,16 +209,19 @@ impl Finding {
     }
 }
 
-/// A number and its standard error, both with the digits that leave two of the error.
+/// A number and its standard error, both with the digits that leave two of the error, and in brackets the degrees of
+/// freedom ν of that, if there are not infinitely many.
 #[must_use]
 pub fn with_error(estimate: Estimate) -> String {
-    let Estimate { value, error } = estimate;
-    if error.is_nan() {
-        return format!("{} (one run)", plain(value));
-    }
-    match estimate.digits() {
+    let Estimate { value, error, degrees } = estimate;
+    let number = match estimate.digits() {
         Some(digits) => format!("{value:.digits$} ± {error:.digits$}"),
         None => plain(value),
+    };
+    match degrees {
+        0.0 => format!("{number} (one run)"),
+        f64::INFINITY => number,
+        _ => format!("{number} (ν = {degrees})"),
     }
 }
 
@@ -235,7 +245,7 @@ mod tests {
     use super::*;
 
     fn verdict(criterion: Criterion, value: f64, error: f64) -> Verdict {
-        criterion.verdict(Some(Estimate { value, error }))
+        criterion.verdict(Some(Estimate::new(value, error)))
     }
 
     #[test]
@@ -259,7 +269,9 @@ mod tests {
     fn what_is_not_known_well_enough_is_undecided() {
         let delay = Criterion::equals(1.16, 0.01);
         assert_eq!(delay.verdict(None), Verdict::Undecided);
+        assert_eq!(delay.verdict(Some(Estimate::single(1.16))), Verdict::Undecided);
         assert_eq!(verdict(delay, 1.16, f64::NAN), Verdict::Undecided);
+        assert_eq!(verdict(delay, f64::NAN, 0.001), Verdict::Undecided);
         assert_eq!(verdict(delay, 1.4, 0.2), Verdict::Undecided);
         assert_eq!(verdict(delay.with_errors(2.0, 0.3), 1.4, 0.2), Verdict::Reproduced);
         // What is far from any bound does not have to be known well.
@@ -267,6 +279,44 @@ mod tests {
         assert_eq!(verdict(grows, 0.8, 0.2), Verdict::Undecided);
         assert_eq!(verdict(grows, 1.8, 0.2), Verdict::Reproduced);
         assert_eq!(verdict(grows, 0.2, 0.2), Verdict::NotReproduced);
+    }
+
+    /// 0.64 ± 0.13 of three runs, of which 2 s.e. are 4.53, is no evidence against 0.9; of ten, 2.32, or of many it is.
+    #[test]
+    fn few_runs_decide_less() {
+        let share = Criterion::at_least(0.9).with_errors(2.0, 0.1);
+        let of = |degrees| share.verdict(Some(Estimate { value: 0.57, error: 0.13, degrees }));
+        assert_eq!(of(1.0), Verdict::Undecided);
+        assert_eq!(of(2.0), Verdict::Undecided);
+        assert_eq!(of(9.0), Verdict::NotReproduced);
+        assert_eq!(of(f64::INFINITY), Verdict::NotReproduced);
+        // Nor does a value near its bound count that few runs do not tell from one beyond.
+        let slope = Criterion::equals(0.0, 0.03).with_errors(2.0, 0.015);
+        let of = |degrees| slope.verdict(Some(Estimate { value: 0.023, error: 0.009, degrees }));
+        assert_eq!((of(2.0), of(9.0)), (Verdict::Undecided, Verdict::Reproduced));
+        // Without degrees of freedom an error says nothing, however small.
+        assert_eq!(of(0.0), Verdict::Undecided);
+    }
+
+    #[test]
+    fn a_bound_on_one_side_has_no_width_to_allow_an_error() {
+        let least = Criterion::at_least(0.9);
+        assert_eq!(verdict(least, 0.89, 0.01), Verdict::Undecided);
+        assert_eq!(verdict(least, 0.91, 0.01), Verdict::Undecided);
+        assert_eq!(verdict(least, 0.91, 0.0), Verdict::Reproduced);
+    }
+
+    #[test]
+    fn words_say_the_confidence() {
+        assert_eq!(
+            Criterion::at_most(0.7).with_errors(2.0, 0.1).words(),
+            "at most 0.7, or up to 2 s.e. (95.45 %) outside if they are at most 0.2"
+        );
+        assert_eq!(
+            Criterion::between(3.0, 4.0).with_errors(3.0, 0.5).words(),
+            "3 to 4, or up to 3 s.e. (99.73 %) outside if they are at most 1.5"
+        );
+        assert_eq!(Criterion::at_least(1.0).words(), "at least 1, with a margin of 2 s.e. (95.45 %)");
     }
 
     #[test]
@@ -278,10 +328,12 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_that_their_errors_leave() {
-        assert_eq!(with_error(Estimate { value: 1.1498, error: 0.0123 }), "1.150 ± 0.012");
-        assert_eq!(with_error(Estimate { value: 2500.0, error: 13.0 }), "2500 ± 13");
-        assert_eq!(with_error(Estimate { value: 0.25, error: 0.0 }), "0.25");
-        assert_eq!(with_error(Estimate { value: 0.25, error: f64::NAN }), "0.25 (one run)");
+        assert_eq!(with_error(Estimate::new(1.1498, 0.0123)), "1.150 ± 0.012");
+        assert_eq!(with_error(Estimate::new(2500.0, 13.0)), "2500 ± 13");
+        assert_eq!(with_error(Estimate::exact(0.25)), "0.25");
+        assert_eq!(with_error(Estimate::single(0.25)), "0.25 (one run)");
+        assert_eq!(with_error(Estimate::new(0.25, 0.01).of_degrees(0.0)), "0.250 ± 0.010 (one run)");
+        assert_eq!(with_error(Estimate::new(0.25, 0.01).of_degrees(9.0)), "0.250 ± 0.010 (ν = 9)");
         assert_eq!(plain(1.234_56e-7), "1.23e-7");
         assert_eq!(plain(500.0), "500");
         assert_eq!(plain(-0.123_456), "-0.1235");

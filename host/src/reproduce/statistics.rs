@@ -13,21 +13,10 @@
 //! assert!((peak.value - 1.5).abs() < 1e-6 && (peak.error - 0.0577).abs() < 1e-3);
 //! ```
 
-use crate::observables::estimate::Estimate;
+use crate::statistics::{Estimate, Sample, jackknife};
 
 /// A mean curve: time and value.
 pub type Curve = Vec<(f64, f64)>;
-
-/// Mean and standard error of the mean; the error is not a number for a single value. None without values.
-#[must_use]
-pub fn mean(values: &[f64]) -> Option<Estimate> {
-    let count = values.len() as f64;
-    let value = values.iter().sum::<f64>() / count;
-    let scatter: f64 = values.iter().map(|one| (one - value) * (one - value)).sum();
-    // 0/0 for one value.
-    let error = (scatter / (count - 1.0) / count).sqrt();
-    (!values.is_empty()).then_some(Estimate { value, error })
-}
 
 /// The same quantity in several runs, bin by bin.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +53,7 @@ impl Curves {
         let bin = |(index, &time): (usize, &f64)| {
             let values: Vec<f64> =
                 self.runs.iter().filter_map(|run| run.get(index).copied().flatten()).collect();
-            mean(&values).map(|estimate| (time, estimate))
+            values.into_iter().collect::<Sample>().estimate().map(|estimate| (time, estimate))
         };
         self.times.iter().enumerate().filter_map(bin).collect()
     }
@@ -84,15 +73,7 @@ impl Curves {
         let means = |left_out: usize| -> Vec<Curve> {
             quantities.iter().map(|curves| curves.mean_without(left_out)).collect()
         };
-        let value = read(&means(usize::MAX))?;
-        if count < 2 {
-            return (count == 1).then_some(Estimate { value, error: f64::NAN });
-        }
-        let parts: Option<Vec<f64>> = (0..count).map(|left_out| read(&means(left_out))).collect();
-        let parts = parts?;
-        let middle = parts.iter().sum::<f64>() / count as f64;
-        let scatter: f64 = parts.iter().map(|part| (part - middle) * (part - middle)).sum();
-        Some(Estimate { value, error: (scatter * (count as f64 - 1.0) / count as f64).sqrt() })
+        jackknife(count, |left_out| read(&means(left_out.unwrap_or(usize::MAX))))
     }
 
     /// The mean curve of all runs but one.
@@ -212,20 +193,11 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_of_one_value_has_no_error() {
-        let one = mean(&[3.0]).unwrap();
-        assert!(one.value == 3.0 && one.error.is_nan());
-        assert_eq!(mean(&[]), None);
-        let two = mean(&[1.0, 3.0]).unwrap();
-        assert_eq!((two.value, two.error), (2.0, 1.0));
-    }
-
-    #[test]
     fn the_jackknife_of_a_mean_is_its_standard_error() {
         let runs = [1.0, 2.0, 4.0, 9.0];
         let curves = Curves::new(vec![0.0], runs.iter().map(|&value| vec![Some(value)]).collect());
         let jackknife = curves.jackknife(|curve| curve.first().map(|point| point.1)).unwrap();
-        let direct = mean(&runs).unwrap();
+        let direct = runs.into_iter().collect::<Sample>().estimate().unwrap();
         assert!(
             (jackknife.value - direct.value).abs() < 1e-12 && (jackknife.error - direct.error).abs() < 1e-12
         );

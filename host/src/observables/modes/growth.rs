@@ -26,7 +26,7 @@
 //! assert!((ratio.value - 1.0).abs() < 1e-6);
 //! ```
 
-use crate::observables::estimate::Estimate;
+use crate::statistics::{Estimate, jackknife};
 
 /// One mode of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,21 +53,16 @@ impl Growth {
 /// The measured growth rate over that of theory, 0.01 to 4, from the powers of all modes together.
 ///
 /// The error is the jackknife's, which leaves out one mode at a time: in linear theory the modes of a run are as
-/// independent of each other as runs are. None with fewer than two modes, of which there is no scatter.
+/// independent of each other as runs are, and so it has one degree of freedom less than there are modes. None with fewer than two modes, of which there is no scatter.
 #[must_use]
 pub fn growth_ratio(modes: &[Growth]) -> Option<Estimate> {
     if modes.len() < 2 {
         return None;
     }
-    let without = |left_out: usize| {
-        let kept = modes.iter().enumerate().filter(|&(index, _)| index != left_out);
-        ratio(&kept.map(|(_, &mode)| mode).collect::<Vec<_>>())
-    };
-    let ratios: Vec<f64> = (0..modes.len()).map(without).collect();
-    let count = modes.len() as f64;
-    let mean = ratios.iter().sum::<f64>() / count;
-    let scatter: f64 = ratios.iter().map(|ratio| (ratio - mean) * (ratio - mean)).sum();
-    Some(Estimate { value: ratio(modes), error: (scatter * (count - 1.0) / count).sqrt() })
+    jackknife(modes.len(), |left_out| {
+        let kept = modes.iter().enumerate().filter(|&(index, _)| Some(index) != left_out);
+        Some(ratio(&kept.map(|(_, &mode)| mode).collect::<Vec<_>>()))
+    })
 }
 
 /// The ratio at which the expected powers sum up to the measured ones, by bisection between 0.01 and 4.

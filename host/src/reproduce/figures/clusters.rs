@@ -4,13 +4,13 @@ use super::{Built, discs, drawn, looks, of_reach, time_axis};
 use crate::figures::axis::Axis;
 use crate::figures::chart::Chart;
 use crate::figures::{Figure, Panel};
-use crate::observables::estimate::Estimate;
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, REACHES, Reach};
 use crate::reproduce::evidence::Evidence;
 use crate::reproduce::finding::{Criterion, Finding, with_error};
 use crate::reproduce::statistics::{Curve, Curves, average, line, maximum};
+use crate::statistics::Estimate;
 
 /// Over which times the position of a maximum is averaged, T.
 pub(super) const WINDOW: f64 = 0.4;
@@ -122,7 +122,7 @@ pub fn mass(evidence: &Evidence) -> Result<Built, ReproduceError> {
         built.findings.push(Finding::new(quantity, paper, criterion).measured(end));
         if let Some(rate) = curves.jackknife(fit(0)) {
             let rate = with_error(rate);
-            built.notes.push(format!("{label}: S grows as exp(kt) with k = {rate} / T."));
+            built.notes.push(format!("{label}: S grows as exp(kt/T) with k = {rate}."));
         }
     }
     built.notes.push(
@@ -169,5 +169,6 @@ pub(super) fn both(
     let [above, below] = [first.as_ref()?.jackknife(&read)?, second.as_ref()?.jackknife(&read)?];
     let value = above.value / below.value;
     let relative = libm::hypot(above.error / above.value, below.error / below.value);
-    Some(Estimate { value, error: (value * relative).abs() })
+    let degrees = above.degrees.min(below.degrees);
+    Some(Estimate { value, error: (value * relative).abs(), degrees })
 }

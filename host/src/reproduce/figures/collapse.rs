@@ -6,7 +6,6 @@ use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Series as Drawn};
 use crate::figures::{Discs, Figure, Panel};
 use crate::observables::collapse_fit::{CollapseFit, Conditions, fit};
-use crate::observables::estimate::Estimate;
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, PATCH_RADIUS};
@@ -15,6 +14,7 @@ use crate::reproduce::finding::{Criterion, Finding, with_error};
 use crate::reproduce::statistics::{Curve, Curves};
 use crate::simulation::torus;
 use crate::start;
+use crate::statistics::Estimate;
 use crate::theory::cold_collapse_radius;
 use crate::theory::shells::{Shell, Shells};
 
@@ -92,13 +92,14 @@ fn fitted(curve: &Curve, last: f64) -> Option<CollapseFit> {
     fit(curve, &conditions).ok()
 }
 
-/// A0 of `curves`: the error is the jackknife's over runs, of a single cold run that of the fit.
+/// A0 of a cold run, which is the same whatever its seed: the error is that of the fit.
 fn delay(curves: &Curves, last: f64) -> Option<Estimate> {
-    let over_runs = curves.jackknife(|curve| fitted(curve, last).map(|fit| fit.delay.value))?;
-    if over_runs.error.is_nan() {
-        return fitted(&mean(curves), last).map(|fit| fit.delay);
-    }
-    Some(over_runs)
+    fitted(&mean(curves), last).map(|fit| fit.delay)
+}
+
+/// A0 of random runs: the error is the jackknife's over runs, as they differ by far more than the fit does not fit.
+fn delay_over_runs(curves: &Curves, last: f64) -> Option<Estimate> {
+    curves.jackknife(|curve| fitted(curve, last).map(|fit| fit.delay.value))
 }
 
 fn mean(curves: &Curves) -> Curve {
@@ -277,10 +278,7 @@ pub fn lengths(evidence: &Evidence) -> Result<Built, ReproduceError> {
         |length: f64| delays.iter().find(|(found, ..)| *found == length).and_then(|(_, delay, _)| *delay);
     for pair in lengths.windows(2) {
         let [shorter, longer] = pair else { continue };
-        let difference = value(*shorter).zip(value(*longer)).map(|(first, second)| Estimate {
-            value: first.value - second.value,
-            error: libm::hypot(first.error, second.error),
-        });
+        let difference = value(*shorter).zip(value(*longer)).map(|(first, second)| first.less(second));
         let quantity = format!("A0 at {} less that at {}", ring_label(*shorter), ring_label(*longer));
         let paper = "upon increasing λ the collapse time decreases";
         let criterion = Criterion::at_least(0.0).with_errors(2.0, 0.005);
@@ -342,7 +340,7 @@ pub fn disc(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let label = format!("R_i = {:.0} R_0", group.initial);
         add(&mut chart, &label, Colour::Category(index), index, &curves, last);
         let what = format!("A0 of the shell about {:.2} R0, R_f = {last} R0 held", group.initial);
-        built.findings.push(finding(&what).measured(delay(&curves, last)));
+        built.findings.push(finding(&what).measured(delay_over_runs(&curves, last)));
         let late = curves.jackknife(|curve| {
             let fit = fitted(curve, last)?;
             let (_, radius) = curve.iter().find(|(time, _)| *time >= fit.delay.value)?;

@@ -4,13 +4,13 @@ use super::{Built, drawn, looks, time_axis};
 use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Series as Drawn};
 use crate::figures::{Figure, Panel};
-use crate::observables::estimate::Estimate;
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, REACHES};
 use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
 use crate::reproduce::finding::{Criterion, Finding};
 use crate::reproduce::statistics::{Curves, average};
+use crate::statistics::Estimate;
 
 /// Energy per disc in time, and how far that of cold rings ever rises.
 ///
@@ -103,5 +103,5 @@ fn rise(points: &[(f64, f64)]) -> Option<Estimate> {
     let before = points.iter().take_while(|(time, _)| *time <= 0.9).count();
     let steps = points.get(..before)?.windows(2).filter_map(|pair| Some(pair.last()?.1 - pair.first()?.1));
     let largest = steps.fold(0.0, f64::max);
-    (first > last).then(|| Estimate { value: largest / (first - last), error: 0.0 })
+    (first > last).then(|| Estimate::exact(largest / (first - last)))
 }

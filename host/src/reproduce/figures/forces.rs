@@ -10,12 +10,12 @@ use crate::figures::chart::{Chart, Colour, Marker, Series as Drawn};
 use crate::figures::{Figure, Panel};
 use crate::files::atomic::write_atomically;
 use crate::files::table::{Table, TableText};
-use crate::observables::estimate::Estimate;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::Size;
 use crate::reproduce::evidence::Evidence;
 use crate::reproduce::finding::{Criterion, Finding};
 use crate::reproduce::statistics::Curve;
+use crate::statistics::Estimate;
 use core::f64::consts::TAU;
 use meniscus_core::dynamics::Clock;
 use meniscus_core::torus::Position;
@@ -139,7 +139,7 @@ fn close(curve: &Curve) -> Option<Estimate> {
         .map(|(_, error)| error * error)
         .collect();
     let value = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
-    (!squares.is_empty()).then_some(Estimate { value, error: 0.0 })
+    (!squares.is_empty()).then_some(Estimate::exact(value))
 }
 
 /// The curves of an earlier report by the same version.

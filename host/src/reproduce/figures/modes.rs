@@ -6,7 +6,6 @@ use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Marker, Series as Drawn};
 use crate::figures::{Figure, Panel};
 use crate::observables::density::Density;
-use crate::observables::estimate::Estimate;
 use crate::observables::modes::growth::{Growth, growth_ratio};
 use crate::observables::series::Series;
 use crate::observables::waves::Waves;
@@ -16,6 +15,7 @@ use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
 use crate::reproduce::finding::{Criterion, Finding};
 use crate::simulation::torus;
 use crate::start;
+use crate::statistics::Estimate;
 use crate::theory::continuity::Continuity;
 use crate::theory::{Instability, Pressure};
 
@@ -93,7 +93,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     }
     built.notes.push(
         "A rate is the one of which ⟨|ρ̂_k(t)|²⟩ = |ρ̂_k(0)|² exp(2t/τ) + N k² τ [exp(2t/τ) − 1] is true of the measured powers: thermal motion \
-         adds the second term, without which noise would count as growth. Errors: jackknife over runs and shells."
+         adds the second term, without which noise would count as growth. Errors: jackknife over runs and shells, of the degrees of freedom of the runs alone."
             .to_owned(),
     );
     built.notes.push(
@@ -252,7 +252,8 @@ fn ratio(
             });
         }
     }
-    growth_ratio(&modes)
+    // The shells of a run may not be as independent of each other as runs are: no surer than these.
+    growth_ratio(&modes).map(|ratio| ratio.of_degrees(runs.len() as f64 - 1.0))
 }
 
 /// How many waves a shell has.

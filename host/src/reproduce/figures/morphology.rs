@@ -9,13 +9,13 @@ use super::{Built, drawn, looks, of_reach, time_axis};
 use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Style};
 use crate::figures::{Figure, Panel};
-use crate::observables::estimate::Estimate;
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{REACHES, Reach, THRESHOLD, THRESHOLDS, side};
 use crate::reproduce::evidence::Evidence;
 use crate::reproduce::finding::{Criterion, Finding, with_error};
 use crate::reproduce::statistics::{Curve, Curves, average, line, maximum};
+use crate::statistics::Estimate;
 
 /// The capillary length of Fig. 7, that of Table I.
 const TABLE_1: Reach = REACHES[4];

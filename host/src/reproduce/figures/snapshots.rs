@@ -11,6 +11,7 @@ use crate::reproduce::evidence::{Evidence, FinishedRun};
 use crate::reproduce::finding::{Criterion, Finding};
 use crate::reproduce::statistics::{average, reaches};
 use crate::simulation::torus;
+use crate::statistics::Estimate;
 
 /// Times of the figures, T.
 const TIMES: [f64; 3] = [1.0, 3.0, 5.0];
@@ -126,7 +127,7 @@ fn largest_share(
     evidence: &Evidence,
     reach: &Reach,
     read: impl Fn(&[(f64, f64)]) -> Option<f64>,
-) -> Result<Option<crate::observables::estimate::Estimate>, ReproduceError> {
+) -> Result<Option<Estimate>, ReproduceError> {
     let count = discs(&evidence.of(Campaign::Clustering));
     let curves = of_reach(evidence, reach, Series::Observables, "largest_cluster", None)?;
     let shares = |curve: &Vec<(f64, f64)>| -> Vec<(f64, f64)> {

@@ -10,9 +10,9 @@
 
 use super::Built;
 use crate::configuration::BOLTZMANN_CONSTANT;
-use crate::observables::estimate::Estimate;
 use crate::reproduce::campaign::PATCH_RADIUS;
 use crate::reproduce::finding::{Criterion, Finding, plain};
+use crate::statistics::Estimate;
 use crate::theory::{Instability, jeans_time, jeans_wavenumber};
 use core::f64::consts::PI;
 
@@ -40,7 +40,7 @@ pub fn build() -> Built {
             format!("{} printed; {} from {from}", plain(printed), plain(implied)),
             Criterion::consistent(printed, implied, rounding),
         )
-        .measured(Some(Estimate { value: implied, error: 0.0 }))
+        .measured(Some(Estimate::exact(implied)))
     };
     let jeans = jeans_time(STRENGTH, DENSITY);
     let unit = RADIUS * RADIUS / (BOLTZMANN_CONSTANT * TEMPERATURE * 10.6e6);

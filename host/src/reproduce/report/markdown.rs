@@ -3,6 +3,7 @@
 use super::{CampaignRecord, Report, Section};
 use crate::reproduce::campaign::Size;
 use crate::reproduce::finding::{Finding, Verdict};
+use crate::statistics::{confidence, student_errors};
 
 /// Below which folder figures are.
 pub(super) const FIGURES: &str = "figures";
@@ -45,9 +46,18 @@ fn head(report: &Report) -> String {
          Bleibel, Dietrich, Domínguez and Oettel (2011), collective dynamics of colloids at a fluid interface, figure by \
          figure: what the paper says, what meniscus {version} finds, and whether the two are the same. {size}\n\n\
          Lengths are in disc radii R0, energies in kBT, times in Jeans' times T unless said otherwise. A number after ± is \
-         one standard error (s.e.), over runs by the jackknife unless said otherwise. A verdict is computed from the \
-         numbers beside it, by the criterion beside it, and undecided where the error is too large for that or unknown; of what is ours, reproduced means as expected. A standard error of n runs is itself uncertain by \
-         1/√(2n − 2) of it, one half for three runs: a verdict near its bound may then be another with other seeds.\n\n",
+         one standard error (s.e.), over runs by the jackknife unless said otherwise, and ν, if it is given, the number of its \
+         degrees of freedom: the runs less one. A verdict is computed from the numbers beside it, by the criterion \
+         beside it, and undecided where the error is too large for that or unknown; of what is ours, reproduced means as \
+         expected.\n\n\
+         In a criterion, 2 s.e. stand for the confidence that two standard errors have of a normal distribution, \
+         {confidence:.2} %. Of few runs the error is itself uncertain, and that confidence takes as many of it as Student's t \
+         says: {one:.2} of two runs (ν = 1), {two:.2} of three, {nine:.2} of ten. So few runs decide little, and with other \
+         seeds a verdict near its bound may be another.\n\n",
+        confidence = 100.0 * confidence(2.0),
+        one = student_errors(2.0, 1.0),
+        two = student_errors(2.0, 2.0),
+        nine = student_errors(2.0, 9.0),
         version = env!("CARGO_PKG_VERSION"),
     )
 }

@@ -131,13 +131,13 @@ impl Report {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observables::estimate::Estimate;
     use crate::reproduce::finding::Criterion;
+    use crate::statistics::Estimate;
 
     fn made_up() -> Report {
         let finding = |name: &str, value: f64| {
             Finding::new(name, "1.16 | top", Criterion::equals(1.16, 0.01))
-                .measured(Some(Estimate { value, error: 0.001 }))
+                .measured(Some(Estimate::new(value, 0.001)))
         };
         let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"8\">\n\n<text>a_b*c*</text></svg>\n";
         let section = Section {
