@@ -1,6 +1,5 @@
 //! Which rows of several runs belong together: those of the same multiple of an interval.
 
-use super::standing::Finished;
 use crate::configuration::Output;
 use crate::observables::series::Series;
 use crate::run::Schedule;
@@ -8,21 +7,21 @@ use crate::simulation::time_units;
 
 /// Due times k·interval.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bins {
+pub(crate) struct Bins {
     /// R0²/D.
     interval: f64,
 }
 
 impl Bins {
-    /// The bins of a run's table; None if it has no rows.
-    pub(super) fn of(series: Series, output: &Output, run: &Finished) -> Option<Self> {
+    /// The bins of a run's table; None if it has no rows. Intervals count in `time_unit`, R0²/D.
+    pub(crate) fn of(series: Series, output: &Output, time_unit: f64) -> Option<Self> {
         let interval = output.interval(series);
-        (interval > 0.0).then_some(Self { interval: interval * run.time_unit })
+        (interval > 0.0).then_some(Self { interval: interval * time_unit })
     }
 
     /// The last k that was due at `time` (R0²/D): that of a row written then, which is the row of the first step at or
     /// after the due time.
-    pub(super) fn last_due(self, time: f64) -> u64 {
+    pub(crate) fn last_due(self, time: f64) -> u64 {
         let mut schedule = Schedule::new(self.interval, 0);
         schedule.is_due(time_units(time));
         schedule.last_due()

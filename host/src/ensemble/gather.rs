@@ -123,7 +123,7 @@ fn series_table(
         let mut groups = Groups::default();
         for member in members {
             let Some(Ok(Standing::Finished(finished))) = standings.get(member.index - 1) else { continue };
-            let Some(bins) = Bins::of(series, &member.configuration.output, finished) else {
+            let Some(bins) = Bins::of(series, &member.configuration.output, finished.time_unit) else {
                 continue;
             };
             let path = member.directory(directory).join(series.file_name());

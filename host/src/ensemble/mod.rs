@@ -59,6 +59,7 @@ mod selection;
 mod standing;
 mod sweep;
 
+pub(crate) use bins::Bins;
 pub use error::{EnsembleError, MemberError};
 pub use gather::{Gathered, gather, gather_sweep};
 pub use member::{Member, RUNS, Setting};

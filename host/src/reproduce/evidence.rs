@@ -15,12 +15,14 @@
 
 use super::ReproduceError;
 use super::campaign::{Campaign, Reach, Size};
-use super::statistics::Curves;
+use super::statistics::{Curves, Row, Run};
 use crate::configuration::Configuration;
-use crate::ensemble::{Member, Standing, Sweep};
+use crate::ensemble::{Bins, Member, Standing, Sweep};
+use crate::files::FormatError;
 use crate::files::table::Table;
 use crate::files::trajectory::{Recorded, TrajectoryReader};
 use crate::observables::series::Series;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A finished run.
@@ -34,6 +36,8 @@ pub struct FinishedRun {
     pub hash: String,
     /// Its directory.
     pub directory: PathBuf,
+    /// What intervals of its tables count in, R0²/D: Jeans' time.
+    pub time_unit: f64,
     /// Steps made.
     pub steps: u64,
     /// SHA-256 of its last state.
@@ -69,22 +73,31 @@ impl FinishedRun {
         column: &str,
         key: Option<(&str, f64)>,
     ) -> Result<Vec<(f64, Option<f64>)>, ReproduceError> {
-        let refused = |problem| ReproduceError::Table { path: self.path(series), problem };
         let table = self.table(series)?;
-        let times = table.numbers("time_over_jeans").map_err(refused)?;
-        let values = table.numbers(column).map_err(refused)?;
-        let keys = match key {
-            Some((name, _)) => table.numbers(name).map_err(refused)?,
-            None => Vec::new(),
+        let rows = selected(&table, column, key).map_err(|problem| self.refused(series, problem))?;
+        Ok(rows.into_iter().map(|(_, time, value)| (time, value)).collect())
+    }
+
+    /// The same with the bins that rows belong to: those of the multiple of the table's interval at which they were due,
+    /// as in gathered tables.
+    ///
+    /// # Errors
+    /// [`ReproduceError::File`]; [`ReproduceError::Table`], also for a second row of a bin.
+    pub fn rows(
+        &self,
+        series: Series,
+        column: &str,
+        key: Option<(&str, f64)>,
+    ) -> Result<Vec<Row>, ReproduceError> {
+        let table = self.table(series)?;
+        let Some(bins) = Bins::of(series, &self.configuration.output, self.time_unit) else {
+            return Ok(Vec::new());
         };
-        let holds = |row: usize| {
-            key.is_none_or(|(_, wanted)| {
-                let found = keys.get(row).copied().flatten();
-                found.is_some_and(|found| (found - wanted).abs() <= 1e-9 * wanted.abs())
-            })
-        };
-        let rows = times.into_iter().zip(values).enumerate().filter(|(row, _)| holds(*row));
-        Ok(rows.filter_map(|(_, (time, value))| Some((time?, value))).collect())
+        binned(&table, bins, column, key).map_err(|problem| self.refused(series, problem))
+    }
+
+    fn refused(&self, series: Series, problem: FormatError) -> ReproduceError {
+        ReproduceError::Table { path: self.path(series), problem }
     }
 
     /// The first frame of its trajectory at or after a time (t/T), give or take a step; None if there is none.
@@ -179,12 +192,60 @@ fn finished(campaign: Campaign, member: &Member, ensemble: &Path) -> Option<Fini
         configuration: member.configuration.clone(),
         hash: member.hash.clone(),
         directory: member.directory(ensemble),
+        time_unit: finished.time_unit,
         steps: finished.step,
         digest: finished.digest,
     })
 }
 
-/// A column of several runs, row by row: rows of the same number belong to the same interval of the output.
+/// Number, time (t/T) and value of the rows in which the column `key.0` is `key.1`.
+fn selected(
+    table: &Table,
+    column: &str,
+    key: Option<(&str, f64)>,
+) -> Result<Vec<(usize, f64, Option<f64>)>, FormatError> {
+    let times = table.numbers("time_over_jeans")?;
+    let values = table.numbers(column)?;
+    let keys = match key {
+        Some((name, _)) => table.numbers(name)?,
+        None => Vec::new(),
+    };
+    let holds = |row: usize| {
+        key.is_none_or(|(_, wanted)| {
+            let found = keys.get(row).copied().flatten();
+            found.is_some_and(|found| (found - wanted).abs() <= 1e-9 * wanted.abs())
+        })
+    };
+    let rows = times.into_iter().zip(values).enumerate().filter(|(row, _)| holds(*row));
+    Ok(rows.filter_map(|(row, (time, value))| Some((row, time?, value))).collect())
+}
+
+/// The same rows with their bins, which `time` (R0²/D) tells, not the number of a row: where one is missing, none else is.
+fn binned(
+    table: &Table,
+    bins: Bins,
+    column: &str,
+    key: Option<(&str, f64)>,
+) -> Result<Vec<Row>, FormatError> {
+    let moments = table.numbers("time")?;
+    let mut found = BTreeSet::new();
+    let mut rows = Vec::new();
+    for (row, time, value) in selected(table, column, key)? {
+        let Some(moment) = moments.get(row).copied().flatten() else { continue };
+        let bin = bins.last_due(moment);
+        if !found.insert(bin) {
+            return Err(FormatError::Line {
+                line: table.line(row),
+                found: format!("a second row of bin {bin}"),
+                expected: "one".to_owned(),
+            });
+        }
+        rows.push(Row { bin, time, value });
+    }
+    Ok(rows)
+}
+
+/// A column of several runs: rows belong together that were due at the same multiple of their interval.
 ///
 /// # Errors
 /// [`ReproduceError::File`], [`ReproduceError::Table`].
@@ -194,14 +255,77 @@ pub fn curves(
     column: &str,
     key: Option<(&str, f64)>,
 ) -> Result<Curves, ReproduceError> {
-    let columns: Vec<Vec<(f64, Option<f64>)>> =
-        runs.iter().map(|run| run.column(series, column, key)).collect::<Result<_, _>>()?;
-    let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
-    let time = |row: usize| {
-        let times = columns.iter().filter_map(|column| column.get(row)).map(|(time, _)| time);
-        times.sum::<f64>() / columns.len() as f64
-    };
-    let times = (0..rows).map(time).collect();
-    let values = columns.iter().map(|column| column.iter().map(|(_, value)| *value).collect());
-    Ok(Curves::new(times, values.collect()))
+    curves_of(runs, |run| run.rows(series, column, key))
+}
+
+/// What `rows` makes of the tables of several runs.
+///
+/// # Errors
+/// Those of `rows`.
+pub fn curves_of(
+    runs: &[&FinishedRun],
+    rows: impl Fn(&FinishedRun) -> Result<Vec<Row>, ReproduceError>,
+) -> Result<Curves, ReproduceError> {
+    let run = |run: &&FinishedRun| Ok(Run { seed: run.configuration.seed, rows: rows(run)? });
+    let runs: Vec<Run> = runs.iter().map(run).collect::<Result<_, ReproduceError>>()?;
+    Ok(Curves::new(&runs))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INTERVAL: f64 = 0.05;
+
+    /// A run in `folder` with rows of these bins, each at the first step after it was due, of ten times the bin.
+    fn run(folder: &Path, seed: u64, bins: &[u64]) -> FinishedRun {
+        let overrides = ["force.method=pm", "mesh.grid=64"].map(str::to_owned);
+        let mut configuration = Configuration::from_preset("fig-7", &overrides).unwrap();
+        (configuration.seed, configuration.output.observables) = (seed, INTERVAL);
+        let time_unit = configuration.jeans_time().unwrap();
+        let late = 1e-3 * seed as f64;
+        let mut text = "step,time,time_over_jeans,clusters\n".to_owned();
+        for bin in bins {
+            let time = INTERVAL * *bin as f64 + late;
+            text.push_str(&format!("1,{},{time},{}\n", time * time_unit, 10 * bin));
+        }
+        let directory = folder.join(seed.to_string());
+        std::fs::create_dir_all(&directory).unwrap();
+        std::fs::write(directory.join("observables.csv"), text).unwrap();
+        let (hash, digest) = Default::default();
+        FinishedRun {
+            campaign: Campaign::Clustering,
+            configuration,
+            hash,
+            directory,
+            time_unit,
+            steps: 1,
+            digest,
+        }
+    }
+
+    #[test]
+    fn a_run_without_a_row_shifts_no_other() {
+        let folder = tempfile::tempdir().unwrap();
+        let runs = [run(folder.path(), 1, &[0, 1, 2, 3, 4]), run(folder.path(), 2, &[0, 2, 3, 4])];
+        let runs: Vec<&FinishedRun> = runs.iter().collect();
+        let means = curves(&runs, Series::Observables, "clusters", None).unwrap().means();
+        let (times, values): (Vec<f64>, Vec<f64>) =
+            means.iter().map(|(time, mean)| (*time, mean.value)).unzip();
+        assert_eq!(values, [0.0, 10.0, 20.0, 30.0, 40.0]);
+        // Where both have a row, 1.5e-3 late on average; the second lacks one.
+        for (time, expected) in times.iter().zip([0.0015, 0.051, 0.1015, 0.1515, 0.2015]) {
+            assert!((time - expected).abs() < 1e-12, "{time}, not {expected}");
+        }
+        assert!(means[1].1.error.is_nan() && means[2].1.error == 0.0);
+    }
+
+    #[test]
+    fn two_rows_of_a_bin_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let damaged = run(folder.path(), 1, &[0, 1, 1]);
+        let error = curves(&[&damaged], Series::Observables, "clusters", None).unwrap_err().to_string();
+        assert!(error.contains("observables.csv") && error.contains("a second row of bin 1"), "{error}");
+        assert!(error.contains('4') && !error.contains('\n'), "{error}");
+    }
 }

@@ -7,9 +7,9 @@ use crate::figures::{Figure, Panel};
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, REACHES};
-use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
+use crate::reproduce::evidence::{Evidence, FinishedRun, curves_of};
 use crate::reproduce::finding::{Criterion, Finding};
-use crate::reproduce::statistics::{Curves, average};
+use crate::reproduce::statistics::{Curves, Row, average};
 use crate::statistics::Estimate;
 
 /// Energy per disc in time, and how far that of cold rings ever rises.
@@ -38,19 +38,17 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let rings = evidence.of(Campaign::Rings);
     let mut chart = Chart::new("cold rings", time_axis(), axis());
     for (index, run) in rings.iter().enumerate() {
-        let points = energies(run)?;
+        let points = points(run)?;
         let first = points.first().map_or(0.0, |point| point.1);
         let colour = Colour::ordered(index, rings.len());
         let label = super::collapse::ring_label(run.length());
-        let points = points.iter().map(|(time, energy)| (*time, energy - first));
-        chart.series.push(Drawn::line(&label, colour, Dash::numbered(index), points));
+        let since_start = points.iter().map(|(time, energy)| (*time, energy - first));
+        chart.series.push(Drawn::line(&label, colour, Dash::numbered(index), since_start));
         let quantity =
             format!("largest rise of the energy between rows up to 0.9 T over its whole fall, {label}");
         let criterion = Criterion::at_most(1e-6);
-        built.findings.push(
-            Finding::new(quantity, "(ours) cold discs run downhill", criterion)
-                .measured(rise(&energies(run)?)),
-        );
+        let finding = Finding::new(quantity, "(ours) cold discs run downhill", criterion);
+        built.findings.push(finding.measured(rise(&points)));
     }
     panels.push(Panel::Chart(chart));
     built.notes.push(
@@ -65,9 +63,8 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
             .and_then(|curves| curves.jackknife(|curve| average(curve, 4.9, 5.1)));
         let quantity = format!("change of the energy per disc by 5 T, {} (kBT)", reach.label(evidence.size));
         let paper = "(ours) attraction wins";
-        built.findings.push(
-            Finding::new(quantity, paper, Criterion::at_most(0.0).with_errors(2.0, 0.1)).measured(fallen),
-        );
+        let criterion = Criterion::at_most(0.0).with_errors(2.0, 0.1);
+        built.findings.push(Finding::new(quantity, paper, criterion).measured(fallen));
     }
     Ok(built)
 }
@@ -77,24 +74,33 @@ fn change(runs: &[&FinishedRun]) -> Result<Option<Curves>, ReproduceError> {
     if runs.is_empty() {
         return Ok(None);
     }
-    let mut columns = Vec::new();
-    for run in runs {
-        let points = energies(run)?;
-        let first = points.first().map_or(0.0, |point| point.1);
-        columns.push(points.iter().map(|(_, energy)| Some(energy - first)).collect());
-    }
-    // The times are those of any column.
-    let times = curves(runs, Series::Observables, "capillary_energy", None)?.means();
-    Ok(Some(Curves::new(times.into_iter().map(|(time, _)| time).collect(), columns)))
+    let since_start = |run: &FinishedRun| {
+        let mut rows = energies(run)?;
+        let start = rows.iter().find(|row| row.bin == 0).and_then(|row| row.value);
+        let Some(first) = start else { return Ok(Vec::new()) };
+        rows.iter_mut().for_each(|row| row.value = row.value.map(|energy| energy - first));
+        Ok(rows)
+    };
+    curves_of(runs, since_start).map(Some)
+}
+
+/// Energy per disc, kBT.
+fn energies(run: &FinishedRun) -> Result<Vec<Row>, ReproduceError> {
+    let count = run.configuration.system.particles as f64;
+    let capillary = run.rows(Series::Observables, "capillary_energy", None)?;
+    let repulsive = run.rows(Series::Observables, "repulsive_energy", None)?;
+    // Of one table, row by row.
+    let both = capillary.into_iter().zip(repulsive);
+    Ok(both
+        .filter_map(|(first, second)| {
+            Some(Row { value: Some((first.value? + second.value?) / count), ..first })
+        })
+        .collect())
 }
 
 /// Time and energy per disc, kBT.
-fn energies(run: &FinishedRun) -> Result<Vec<(f64, f64)>, ReproduceError> {
-    let count = run.configuration.system.particles as f64;
-    let capillary = run.column(Series::Observables, "capillary_energy", None)?;
-    let repulsive = run.column(Series::Observables, "repulsive_energy", None)?;
-    let both = capillary.into_iter().zip(repulsive);
-    Ok(both.filter_map(|((time, first), (_, second))| Some((time, (first? + second?) / count))).collect())
+fn points(run: &FinishedRun) -> Result<Vec<(f64, f64)>, ReproduceError> {
+    Ok(energies(run)?.into_iter().filter_map(|row| Some((row.time, row.value?))).collect())
 }
 
 /// The largest rise between two rows before discs touch, of the whole fall.

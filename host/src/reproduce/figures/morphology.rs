@@ -205,9 +205,8 @@ fn numbers_of_regions(built: &mut Built, evidence: &Evidence) -> Result<(), Repr
         );
         let count = of_reach(evidence, reach, Series::Observables, "clusters", None)?;
         let ratio = euler.as_ref().zip(count.as_ref()).and_then(|(euler, count)| {
-            Curves::jackknife_of(&[euler, count], |curves| match curves {
-                [euler, count] => Some(average(euler, 1.25, 1.75)? / average(count, 1.25, 1.75)?),
-                _ => None,
+            Curves::jackknife_of([euler, count], |[euler, count]| {
+                Some(average(euler, 1.25, 1.75)? / average(count, 1.25, 1.75)?)
             })
         });
         if let Some(ratio) = ratio {

@@ -1,92 +1,6 @@
-//! Curves measured in several runs: means with standard errors, and numbers read off them with jackknife errors.
-//!
-//! In: for each run a value per bin of time. Out: means over runs per bin, and what a function of the mean curve (where
-//! it is highest, how steep it is) comes to, with the error that leaving out one run at a time tells.
-//!
-//! ```
-//! use meniscus::reproduce::statistics::{Curves, maximum};
-//!
-//! let run = |shift: f64| (0..41).map(|k| 0.1 * f64::from(k)).map(move |t| Some(2.0 - (t - shift) * (t - shift)));
-//! let times = (0..41).map(|k| 0.1 * f64::from(k)).collect();
-//! let curves = Curves::new(times, [1.4, 1.5, 1.6].into_iter().map(|shift| run(shift).collect()).collect());
-//! let peak = curves.jackknife(|curve| maximum(curve, 0.4).map(|(time, _)| time)).unwrap();
-//! assert!((peak.value - 1.5).abs() < 1e-6 && (peak.error - 0.0577).abs() < 1e-3);
-//! ```
+//! What is read off a mean curve: where it is highest, how steep it is, when it reaches a level.
 
-use crate::statistics::{Estimate, Sample, jackknife};
-
-/// A mean curve: time and value.
-pub type Curve = Vec<(f64, f64)>;
-
-/// The same quantity in several runs, bin by bin.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Curves {
-    times: Vec<f64>,
-    runs: Vec<Vec<Option<f64>>>,
-}
-
-impl Curves {
-    /// Values of `runs`, each one per bin of `times`; missing ones count as None, further ones are dropped.
-    #[must_use]
-    pub fn new(times: Vec<f64>, runs: Vec<Vec<Option<f64>>>) -> Self {
-        Self { times, runs }
-    }
-
-    /// The same, zeros counting as missing: a mean over clusters is 0 where there is none.
-    #[must_use]
-    pub fn without_zeros(self) -> Self {
-        let kept = |run: Vec<Option<f64>>| {
-            run.into_iter().map(|value| value.filter(|value| *value != 0.0)).collect()
-        };
-        Self { times: self.times, runs: self.runs.into_iter().map(kept).collect() }
-    }
-
-    /// How many runs there are.
-    #[must_use]
-    pub fn runs(&self) -> usize {
-        self.runs.len()
-    }
-
-    /// Mean and standard error over runs per bin in which any run has a value.
-    #[must_use]
-    pub fn means(&self) -> Vec<(f64, Estimate)> {
-        let bin = |(index, &time): (usize, &f64)| {
-            let values: Vec<f64> =
-                self.runs.iter().filter_map(|run| run.get(index).copied().flatten()).collect();
-            values.into_iter().collect::<Sample>().estimate().map(|estimate| (time, estimate))
-        };
-        self.times.iter().enumerate().filter_map(bin).collect()
-    }
-
-    /// What `read` makes of the mean curve, with the error of leaving out one run at a time: not a number for a single
-    /// run. None if `read` is of the whole or of a part.
-    #[must_use]
-    pub fn jackknife(&self, read: impl Fn(&Curve) -> Option<f64>) -> Option<Estimate> {
-        let all: Vec<&Self> = vec![self];
-        Self::jackknife_of(&all, |curves| read(curves.first()?))
-    }
-
-    /// As [`Curves::jackknife`] of several quantities of the same runs.
-    #[must_use]
-    pub fn jackknife_of(quantities: &[&Self], read: impl Fn(&[Curve]) -> Option<f64>) -> Option<Estimate> {
-        let count = quantities.iter().map(|curves| curves.runs()).min()?;
-        let means = |left_out: usize| -> Vec<Curve> {
-            quantities.iter().map(|curves| curves.mean_without(left_out)).collect()
-        };
-        jackknife(count, |left_out| read(&means(left_out.unwrap_or(usize::MAX))))
-    }
-
-    /// The mean curve of all runs but one.
-    fn mean_without(&self, left_out: usize) -> Curve {
-        let bin = |(index, &time): (usize, &f64)| {
-            let kept = self.runs.iter().enumerate().filter(|(run, _)| *run != left_out);
-            let values: Vec<f64> = kept.filter_map(|(_, run)| run.get(index).copied().flatten()).collect();
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            (!values.is_empty()).then_some((time, mean))
-        };
-        self.times.iter().enumerate().filter_map(bin).collect()
-    }
-}
+use super::Curve;
 
 /// Where a curve is highest, and how high: the vertex of the parabola that fits best within `window` about the largest
 /// mean over `window`. At an end of the curve, the end. None for a curve without points.
@@ -190,26 +104,6 @@ mod tests {
 
     fn curve(count: u32, step: f64, value: impl Fn(f64) -> f64) -> Curve {
         (0..count).map(|k| step * f64::from(k)).map(|time| (time, value(time))).collect()
-    }
-
-    #[test]
-    fn the_jackknife_of_a_mean_is_its_standard_error() {
-        let runs = [1.0, 2.0, 4.0, 9.0];
-        let curves = Curves::new(vec![0.0], runs.iter().map(|&value| vec![Some(value)]).collect());
-        let jackknife = curves.jackknife(|curve| curve.first().map(|point| point.1)).unwrap();
-        let direct = runs.into_iter().collect::<Sample>().estimate().unwrap();
-        assert!(
-            (jackknife.value - direct.value).abs() < 1e-12 && (jackknife.error - direct.error).abs() < 1e-12
-        );
-    }
-
-    #[test]
-    fn bins_without_a_value_are_left_out() {
-        let curves =
-            Curves::new(vec![0.0, 1.0, 2.0], vec![vec![Some(1.0), None], vec![Some(3.0), None, Some(2.0)]]);
-        let means = curves.means();
-        assert_eq!(means.len(), 2);
-        assert_eq!((means[0].1.value, means[1].0), (2.0, 2.0));
     }
 
     #[test]
