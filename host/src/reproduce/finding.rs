@@ -53,6 +53,15 @@ impl Verdict {
     }
 }
 
+/// Who says the bounds within which a value has to lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The paper: as a number, or a word such as "increase", which has but one bound.
+    Paper,
+    /// We: the paper says it in words, or not how exactly its number is meant.
+    Ours,
+}
+
 /// What counts as the paper's claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Criterion {
@@ -66,6 +75,8 @@ pub enum Criterion {
         standard_errors: f64,
         /// The largest standard error of that kind with which a value that close to a bound says anything.
         resolution: f64,
+        /// Who says the bounds.
+        source: Source,
     },
     /// Two numbers that the paper gives, or that follow from what it gives, are the same within their rounding.
     Consistent {
@@ -90,7 +101,8 @@ impl Criterion {
     pub fn between(least: f64, most: f64) -> Self {
         let width = most - least;
         let resolution = if width.is_finite() { 0.5 * width } else { 0.0 };
-        Self::Between { least, most, standard_errors: STANDARD_ERRORS, resolution }
+        let source = Source::Paper;
+        Self::Between { least, most, standard_errors: STANDARD_ERRORS, resolution, source }
     }
 
     /// At least `least`.
@@ -115,7 +127,20 @@ impl Criterion {
     #[must_use]
     pub const fn with_errors(self, standard_errors: f64, resolution: f64) -> Self {
         match self {
-            Self::Between { least, most, .. } => Self::Between { least, most, standard_errors, resolution },
+            Self::Between { least, most, source, .. } => {
+                Self::Between { least, most, standard_errors, resolution, source }
+            }
+            Self::Consistent { .. } => self,
+        }
+    }
+
+    /// The same, the bounds being ours and not the paper's.
+    #[must_use]
+    pub const fn ours(self) -> Self {
+        match self {
+            Self::Between { least, most, standard_errors, resolution, .. } => {
+                Self::Between { least, most, standard_errors, resolution, source: Source::Ours }
+            }
             Self::Consistent { .. } => self,
         }
     }
@@ -152,18 +177,23 @@ impl Criterion {
             Self::Consistent { printed, implied, rounding } => {
                 format!("{} and {} differ by at most {}", plain(printed), plain(implied), plain(rounding))
             }
-            Self::Between { least, most, standard_errors, resolution } => {
+            Self::Between { least, most, standard_errors, resolution, source } => {
                 let range = match (least.is_finite(), most.is_finite()) {
                     (true, true) => format!("{} to {}", plain(least), plain(most)),
                     (true, false) => format!("at least {}", plain(least)),
                     _ => format!("at most {}", plain(most)),
                 };
+                let source = match source {
+                    Source::Paper => "",
+                    Source::Ours if least.is_finite() && most.is_finite() => " (bounds ours)",
+                    Source::Ours => " (bound ours)",
+                };
                 let margin = format!("{standard_errors} s.e. ({:.2} %)", 100.0 * confidence(standard_errors));
                 if resolution > 0.0 {
                     let most = plain(standard_errors * resolution);
-                    format!("{range}, or up to {margin} outside if they are at most {most}")
+                    format!("{range}{source}, or up to {margin} outside if they are at most {most}")
                 } else {
-                    format!("{range}, with a margin of {margin}")
+                    format!("{range}{source}, with a margin of {margin}")
                 }
             }
         }
@@ -307,15 +337,16 @@ mod tests {
     }
 
     #[test]
-    fn words_say_the_confidence() {
+    fn words_say_the_confidence_and_whose_the_bounds_are() {
         assert_eq!(
-            Criterion::at_most(0.7).with_errors(2.0, 0.1).words(),
-            "at most 0.7, or up to 2 s.e. (95.45 %) outside if they are at most 0.2"
+            Criterion::at_most(0.7).with_errors(2.0, 0.1).ours().words(),
+            "at most 0.7 (bound ours), or up to 2 s.e. (95.45 %) outside if they are at most 0.2"
         );
         assert_eq!(
             Criterion::between(3.0, 4.0).with_errors(3.0, 0.5).words(),
             "3 to 4, or up to 3 s.e. (99.73 %) outside if they are at most 1.5"
         );
+        assert!(Criterion::equals(1.5, 0.25).ours().words().starts_with("1.25 to 1.75 (bounds ours), or"));
         assert_eq!(Criterion::at_least(1.0).words(), "at least 1, with a margin of 2 s.e. (95.45 %)");
     }
 

@@ -47,14 +47,14 @@ pub fn number(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let time = count(reach)?
             .and_then(|curves| curves.jackknife(|curve| maximum(curve, WINDOW).map(|peak| peak.0)));
         let quantity = format!("time of the most clusters, {} (T)", reach.label(evidence.size));
-        let criterion = Criterion::equals(1.5, 0.25);
+        let criterion = Criterion::equals(1.5, 0.25).ours();
         built.findings.push(Finding::new(quantity, "≈ 1.5", criterion).measured(time));
     }
     let longest = count(&REACHES[6])?;
     let over_longest = |reach: &Reach| -> Result<Option<Estimate>, ReproduceError> {
         Ok(quotient(&count(reach)?, &longest, |curve| integral(curve, COLLAPSED)))
     };
-    let criterion = Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05);
+    let criterion = Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05).ours();
     built.findings.push(
         Finding::new(
             "clusters over 0 to 5 T, λ/L = 3 over λ/L = 10",
@@ -119,7 +119,7 @@ pub fn mass(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let end = curves.jackknife(|curve| average(curve, 6.0, 7.1).map(|size| size / all));
         let quantity = format!("S/N at 6 to 7 T, {label}");
         let paper = "saturates when only a single cluster remains, to which most particles are bound";
-        let criterion = Criterion::at_least(0.9).with_errors(2.0, 0.05);
+        let criterion = Criterion::at_least(0.9).with_errors(2.0, 0.05).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(end));
         if let Some(rate) = curves.jackknife(fit(0)) {
             let rate = with_error(rate);
@@ -140,7 +140,7 @@ fn exponential(label: &str) -> Finding {
     Finding::new(
         quantity,
         "seems to follow an exponential law",
-        Criterion::at_least(0.97).with_errors(2.0, 0.01),
+        Criterion::at_least(0.97).with_errors(2.0, 0.01).ours(),
     )
 }
 

@@ -133,7 +133,11 @@ pub fn rings(evidence: &Evidence) -> Result<Built, ReproduceError> {
     for (index, ring) in RINGS.iter().enumerate() {
         let Printed { initial, delay: expected, last } = *ring;
         let finding = |what: &str| {
-            Finding::new(what, format!("{expected} with R_f = {last}"), Criterion::equals(expected, DELAY))
+            Finding::new(
+                what,
+                format!("{expected} with R_f = {last}"),
+                Criterion::equals(expected, DELAY).ours(),
+            )
         };
         let Some(group) = closest(&groups, initial) else {
             built.findings.push(finding(&format!("A0, R_i = {initial} R0")));
@@ -244,7 +248,7 @@ fn shells_finding(runs: &[&FinishedRun], groups: &[Group]) -> Result<Vec<Finding
         let quantity =
             format!("largest |R − R of mean-field shells| / R_i up to 0.8 T, ring {}", group.number);
         let paper = "(ours) the theory holds until discs touch";
-        findings.push(Finding::new(quantity, paper, Criterion::at_most(0.01)).measured(deviation));
+        findings.push(Finding::new(quantity, paper, Criterion::at_most(0.01).ours()).measured(deviation));
     }
     Ok(findings)
 }
@@ -289,7 +293,7 @@ pub fn lengths(evidence: &Evidence) -> Result<Built, ReproduceError> {
         Finding::new(
             "A0 at λ → ∞ of the outermost ring, R_f = 0.13 R_i held",
             "A0(λ → ∞) = 1",
-            Criterion::equals(1.0, DELAY),
+            Criterion::equals(1.0, DELAY).ours(),
         )
         .measured(value(newtonian)),
     );
@@ -329,7 +333,7 @@ pub fn disc(evidence: &Evidence) -> Result<Built, ReproduceError> {
     for (index, shell) in SHELLS.iter().enumerate() {
         let Printed { initial, delay: expected, last } = *shell;
         let finding = |what: &str| {
-            let criterion = Criterion::equals(expected, DELAY).with_errors(2.0, 0.02);
+            let criterion = Criterion::equals(expected, DELAY).with_errors(2.0, 0.02).ours();
             Finding::new(what, format!("{expected} with R_f = {last}"), criterion)
         };
         let Some(group) = closest(&groups, initial) else {
@@ -348,9 +352,9 @@ pub fn disc(evidence: &Evidence) -> Result<Built, ReproduceError> {
         });
         let what = format!("(R − R_f)/R_f at t = A0·T, shell about {:.2} R0", group.initial);
         let paper = "approaches R_f more smoothly and later than A0·T";
-        built
-            .findings
-            .push(Finding::new(what, paper, Criterion::at_least(0.2).with_errors(2.0, 0.1)).measured(late));
+        built.findings.push(
+            Finding::new(what, paper, Criterion::at_least(0.2).with_errors(2.0, 0.1).ours()).measured(late),
+        );
     }
     let caption = "Mean radii of shells 7.5 R0 wide of a random patch with thermal motion: points measured, lines fits of Eq. 30 over \
                    0 < t < 0.9 T with the paper's R_f.";

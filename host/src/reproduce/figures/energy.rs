@@ -46,7 +46,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
         chart.series.push(Drawn::line(&label, colour, Dash::numbered(index), since_start));
         let quantity =
             format!("largest rise of the energy between rows up to 0.9 T over its whole fall, {label}");
-        let criterion = Criterion::at_most(1e-6);
+        let criterion = Criterion::at_most(1e-6).ours();
         let finding = Finding::new(quantity, "(ours) cold discs run downhill", criterion);
         built.findings.push(finding.measured(rise(&points)));
     }
@@ -63,7 +63,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
             .and_then(|curves| curves.jackknife(|curve| average(curve, 4.9, 5.1)));
         let quantity = format!("change of the energy per disc by 5 T, {} (kBT)", reach.label(evidence.size));
         let paper = "(ours) attraction wins";
-        let criterion = Criterion::at_most(0.0).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_most(0.0).with_errors(2.0, 0.1).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(fallen));
     }
     Ok(built)

@@ -119,7 +119,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     for (index, (way, curve)) in ways.iter().zip(curves).enumerate() {
         let label = way.label.replace("10^{-", "1e-").replace('}', "");
         let quantity = format!("rms error of a pair's force at 2 to 4 R0, of V0/d: {label}");
-        let finding = Finding::new(quantity, way.paper, Criterion::at_most(way.accepted));
+        let finding = Finding::new(quantity, way.paper, Criterion::at_most(way.accepted).ours());
         built.findings.push(finding.measured(close(&curve)));
         chart.series.push(Drawn::joined(way.label, Colour::Category(index), way.marker, curve));
     }

@@ -45,7 +45,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let clusters = [split, mesh].map(|runs| some(runs, Series::Observables, "clusters", None));
     let [of_split, of_mesh] = clusters;
     let (of_split, of_mesh) = (of_split?, of_mesh?);
-    let same = || Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05);
+    let same = || Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05).ours();
     let paper = "(ours) mesh alone and split force agree";
     built.findings.push(
         Finding::new("clusters over 0 to 5 T, mesh alone over split force", paper, same())

@@ -70,10 +70,10 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let long = |time: f64| theory.and_then(|theory| ratio(&runs, &all, &theory, time, 0.0..LONG));
     for time in [0.5, 1.0] {
         let quantity = format!("growth rate over Eq. 10, k < 0.2 K, 0 to {time} T");
-        let criterion = Criterion::equals(1.0, 0.01).with_errors(3.0, 0.02);
+        let criterion = Criterion::equals(1.0, 0.01).with_errors(3.0, 0.02).ours();
         built.findings.push(Finding::new(quantity, "very good agreement", criterion).measured(long(time)));
     }
-    let criterion = Criterion::equals(1.0, 0.05).with_errors(3.0, 0.02);
+    let criterion = Criterion::equals(1.0, 0.05).with_errors(3.0, 0.02).ours();
     built.findings.push(
         Finding::new(
             "growth rate over Eq. 10, k < 0.2 K, 0 to 1.5 T",
@@ -84,7 +84,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     );
     for (from, to) in [(0.2, 0.4), (0.4, 0.6), (0.6, 0.8)] {
         let quantity = format!("growth rate over Eq. 10, {from} K < k < {to} K, 0 to 1 T");
-        let criterion = Criterion::equals(1.0, 0.1).with_errors(3.0, 0.03);
+        let criterion = Criterion::equals(1.0, 0.1).with_errors(3.0, 0.03).ours();
         let measured = theory.and_then(|theory| ratio(&runs, &all, &theory, 1.0, from..to));
         built.findings.push(
             Finding::new(quantity, "very good agreement; modes with k < K_c are shown", criterion)

@@ -101,12 +101,12 @@ pub fn thresholds(evidence: &Evidence) -> Result<Built, ReproduceError> {
     for threshold in [0.14, 0.2, 0.3, 0.4] {
         let quantity = format!("M1 at 6.5 to 7 T over its maximum, ρ_c = {threshold} ρ_m");
         let paper = "a maximum and a decrease: the crossover is visible at intermediate thresholds";
-        let criterion = Criterion::at_most(0.7).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_most(0.7).with_errors(2.0, 0.1).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(drop(threshold)?));
     }
     let quantity = "M1 at 6.5 to 7 T over its maximum, ρ_c = 0.8 ρ_m";
     let paper = "close to ρ_m the signature of the crossover is no longer detectable";
-    let criterion = Criterion::at_least(0.8).with_errors(2.0, 0.1);
+    let criterion = Criterion::at_least(0.8).with_errors(2.0, 0.1).ours();
     built.findings.push(Finding::new(quantity, paper, criterion).measured(drop(0.8)?));
     Ok(built)
 }
@@ -170,10 +170,10 @@ fn maxima(
             .and_then(|curves| curves.jackknife(|curve| maximum(curve, WINDOW).map(|peak| peak.0)));
         let quantity = format!("time of the maximum of {name}, {label} (T)");
         let paper = "crossover at a time of the order of T";
-        let criterion = Criterion::between(0.5, 2.0).with_errors(2.0, 0.2);
+        let criterion = Criterion::between(0.5, 2.0).with_errors(2.0, 0.2).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(peak));
         let quantity = format!("{name} at 6.5 to 7 T over its maximum, {label}");
-        let criterion = Criterion::at_most(0.7).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_most(0.7).with_errors(2.0, 0.1).ours();
         let finding = Finding::new(quantity, "a maximum followed by a steady decrease", criterion);
         built.findings.push(finding.measured(curves.and_then(|curves| curves.jackknife(loss))));
     }
@@ -227,7 +227,7 @@ fn shape_findings(built: &mut Built, evidence: &Evidence) -> Result<(), Reproduc
         let slope = curves.and_then(|curves| curves.jackknife(late_slope));
         let quantity = format!("slope of ln φ over 4 to 7 T, {} (1/T)", reach.label(evidence.size));
         let paper = "φ tends to become time-independent: self-similar growth";
-        let criterion = Criterion::equals(0.0, 0.03).with_errors(2.0, 0.015);
+        let criterion = Criterion::equals(0.0, 0.03).with_errors(2.0, 0.015).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(slope));
     }
     for reach in REACHES.iter().filter(|reach| !reach.short) {
@@ -240,7 +240,7 @@ fn shape_findings(built: &mut Built, evidence: &Evidence) -> Result<(), Reproduc
             })
         });
         let quantity = format!("φ at 2.75 to 3.5 T over its maximum before, {label}");
-        let criterion = Criterion::at_most(0.95).with_errors(2.0, 0.025);
+        let criterion = Criterion::at_most(0.95).with_errors(2.0, 0.025).ours();
         built
             .findings
             .push(Finding::new(quantity, "a maximum followed by a decrease", criterion).measured(fall));
@@ -249,13 +249,13 @@ fn shape_findings(built: &mut Built, evidence: &Evidence) -> Result<(), Reproduc
         });
         let quantity = format!("φ at 6 to 7 T over that at 2.75 to 3.5 T, {label}");
         let paper = "increase after the collapse to a single cluster: towards a circular shape";
-        let criterion = Criterion::at_least(1.05).with_errors(2.0, 0.025);
+        let criterion = Criterion::at_least(1.05).with_errors(2.0, 0.025).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(rise));
         let count = of_reach(evidence, reach, Series::Observables, "clusters", None)?;
         let single = count.and_then(|curves| curves.jackknife(single_cluster));
         let quantity = format!("time at which there are 1.5 clusters on average, {label} (T)");
         let paper = "collapsed to a single cluster at ≈ 6 T; completed at ≈ 5 T";
-        let criterion = Criterion::between(4.5, 6.5).with_errors(2.0, 0.5);
+        let criterion = Criterion::between(4.5, 6.5).with_errors(2.0, 0.5).ours();
         built.findings.push(Finding::new(quantity, paper, criterion).measured(single));
     }
     built.notes.push(

@@ -86,7 +86,7 @@ fn slow(evidence: &Evidence, reaches: &[Reach]) -> Result<Vec<Finding>, Reproduc
     let mut findings = Vec::new();
     for reach in reaches {
         let share = largest_share(evidence, reach, |curve| average(curve, 4.9, 5.1))?;
-        let criterion = Criterion::at_most(0.5).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_most(0.5).with_errors(2.0, 0.1).ours();
         let quantity =
             format!("share of discs in the largest cluster at 5 T, {}", reach.label(evidence.size));
         findings.push(
@@ -102,7 +102,7 @@ fn fast(evidence: &Evidence, reaches_of_figure: &[Reach]) -> Result<Vec<Finding>
     let mut findings = Vec::new();
     for reach in reaches_of_figure {
         let share = largest_share(evidence, reach, |curve| average(curve, 4.9, 5.1))?;
-        let criterion = Criterion::at_least(ALMOST_ALL).with_errors(2.0, 0.1);
+        let criterion = Criterion::at_least(ALMOST_ALL).with_errors(2.0, 0.1).ours();
         let quantity =
             format!("share of discs in the largest cluster at 5 T, {}", reach.label(evidence.size));
         findings.push(

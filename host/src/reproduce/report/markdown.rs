@@ -49,7 +49,8 @@ fn head(report: &Report) -> String {
          one standard error (s.e.), over runs by the jackknife unless said otherwise, and ν, if it is given, the number of its \
          degrees of freedom: the runs less one. A verdict is computed from the numbers beside it, by the criterion \
          beside it, and undecided where the error is too large for that or unknown; of what is ours, reproduced means as \
-         expected.\n\n\
+         expected. Where the paper has words, or a number without an error, the bounds of a criterion are ours and say \
+         so; how large an error may be is always ours.\n\n\
          In a criterion, 2 s.e. stand for the confidence that two standard errors have of a normal distribution, \
          {confidence:.2} %. Of few runs the error is itself uncertain, and that confidence takes as many of it as Student's t \
          says: {one:.2} of two runs (ν = 1), {two:.2} of three, {nine:.2} of ten. So few runs decide little, and with other \
