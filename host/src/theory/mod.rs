@@ -7,6 +7,7 @@
 //! - [`cold_collapse_radius`], [`collapse_fit`]: radii of a collapsing patch (Eqs. 13, 30)
 //! - [`Pressure`]: equations of state (Eq. 2)
 //! - [`shells`]: cold collapse of concentric shells at any capillary length
+//! - [`patch`]: collapse of a round patch with pressure and thermal motion
 //! - [`continuity`]: the density as a function of place and time (Eq. 6)
 //!
 //! ```
@@ -19,12 +20,16 @@
 //! assert!(table_1.growth_rate(2.0 * critical) < 0.0);
 //! ```
 
+mod attraction;
 mod cold_collapse;
 pub mod continuity;
+mod error;
 mod linear;
+pub mod patch;
 mod pressure;
 pub mod shells;
 
 pub use cold_collapse::{cold_collapse_radius, collapse_fit};
+pub use error::{AttractionError, EvolutionError};
 pub use linear::{Instability, jeans_time, jeans_wavenumber};
 pub use pressure::{DISC_RADIUS, Pressure};

@@ -28,7 +28,7 @@
 //! let wavenumber = core::f64::consts::TAU / 500.0;
 //! assert!((growth / (theory.growth_rate(wavenumber) * time) - 1.0).abs() < 0.01);
 //! assert!((monolayer.mass() / 2500.0 - 1.0).abs() < 1e-12);
-//! # Ok::<(), meniscus::theory::continuity::ContinuityError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod field;
@@ -40,7 +40,7 @@ mod transform;
 pub use spectrum::Spectrum;
 pub use starts::{sinusoid, top_hat};
 
-use super::Pressure;
+use super::{AttractionError, EvolutionError, Pressure};
 use core::f64::consts::TAU;
 use field::Field;
 use flux::{Flow, rates};
@@ -73,29 +73,14 @@ pub struct Continuity {
 /// Why the continuity equation cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ContinuityError {
-    /// A box that is none.
-    #[error("a box of side {side} R0 was given: it must be a positive number")]
-    Side {
-        /// L as given, R0.
-        side: f64,
-    },
+    /// No such attraction, or no such box.
+    #[error(transparent)]
+    Attraction(#[from] AttractionError),
     /// Fewer cells than neighbours.
     #[error("a mesh of {cells} cells a side was given: it needs at least 4")]
     Cells {
         /// n as given.
         cells: usize,
-    },
-    /// A strength that is none.
-    #[error("a capillary strength of {strength} kBT was given: it must be a number of at least 0")]
-    Strength {
-        /// V0 as given, kBT.
-        strength: f64,
-    },
-    /// A length that is none.
-    #[error("a capillary length of {length} R0 was given: it must be positive; inf is allowed")]
-    Length {
-        /// λ as given, R0.
-        length: f64,
     },
     /// Not one density per cell.
     #[error("{found} densities were given for {cells} x {cells} cells: give one for each")]
@@ -115,22 +100,6 @@ pub enum ContinuityError {
         /// The density at which the pressure diverges, R0⁻².
         largest: f64,
     },
-    /// A time that has passed.
-    #[error("the time {asked} R0^2/D was asked for at {time}: ask for later ones")]
-    Time {
-        /// The time asked for, R0²/D.
-        asked: f64,
-        /// The time reached, R0²/D.
-        time: f64,
-    },
-    /// No step is short enough.
-    #[error(
-        "the density cannot be followed beyond the time {time} R0^2/D: take more pressure or larger cells"
-    )]
-    Stalled {
-        /// The time reached, R0²/D.
-        time: f64,
-    },
 }
 
 impl Continuity {
@@ -138,7 +107,7 @@ impl Continuity {
     /// V0 = `strength` (kBT) and λ = `length` (R0), which may be infinite.
     ///
     /// # Errors
-    /// All of [`ContinuityError`] but [`ContinuityError::Time`] and [`ContinuityError::Stalled`].
+    /// [`ContinuityError`].
     pub fn new(
         side: f64,
         cells: usize,
@@ -147,17 +116,10 @@ impl Continuity {
         pressure: Pressure,
         density: &[f64],
     ) -> Result<Self, ContinuityError> {
-        if !(side > 0.0 && side.is_finite()) {
-            return Err(ContinuityError::Side { side });
-        }
+        AttractionError::check_side(side, 0.0)?;
+        AttractionError::check(strength, length)?;
         if cells < 4 {
             return Err(ContinuityError::Cells { cells });
-        }
-        if !(strength >= 0.0 && strength.is_finite()) {
-            return Err(ContinuityError::Strength { strength });
-        }
-        if length.is_nan() || length <= 0.0 {
-            return Err(ContinuityError::Length { length });
         }
         if cells.checked_mul(cells) != Some(density.len()) {
             return Err(ContinuityError::Count { found: density.len(), cells });
@@ -174,12 +136,10 @@ impl Continuity {
     /// Goes on to the `time` (R0²/D), exactly.
     ///
     /// # Errors
-    /// [`ContinuityError::Time`] unless it is at or after [`Continuity::time`]; [`ContinuityError::Stalled`], in which case
+    /// [`EvolutionError::Time`] unless it is at or after [`Continuity::time`]; [`EvolutionError::Stalled`], in which case
     /// the state is that of the last step.
-    pub fn advance_to(&mut self, time: f64) -> Result<(), ContinuityError> {
-        if !(time >= self.time && time.is_finite()) {
-            return Err(ContinuityError::Time { asked: time, time: self.time });
-        }
+    pub fn advance_to(&mut self, time: f64) -> Result<(), EvolutionError> {
+        EvolutionError::check(time, self.time)?;
         while self.time < time {
             self.step(time)?;
         }
@@ -226,7 +186,7 @@ impl Continuity {
     }
 
     /// One step of Heun's method, ρ₁ = ρ + τ·r(ρ), ρ ← (ρ + ρ₁ + τ·r(ρ₁))/2: positive if both of its Euler steps are.
-    fn step(&mut self, until: f64) -> Result<(), ContinuityError> {
+    fn step(&mut self, until: f64) -> Result<(), EvolutionError> {
         let first = self.flow(&self.density);
         let densest = largest(&self.density);
         let growth = GROWTH_STEP / (TAU * self.strength * densest);
@@ -254,7 +214,7 @@ impl Continuity {
             }
             step *= 0.5;
         }
-        Err(ContinuityError::Stalled { time: self.time })
+        Err(EvolutionError::Stalled { time: self.time })
     }
 
     /// How the cells empty and fill at this density.

@@ -230,15 +230,15 @@ fn what_cannot_be_is_refused() {
     let new = |side, cells, strength, length, density: &[f64]| {
         Continuity::new(side, cells, strength, length, Pressure::discs(), density).unwrap_err()
     };
-    assert_eq!(new(0.0, 4, 1.0, 1.0, &even), ContinuityError::Side { side: 0.0 });
+    assert_eq!(new(0.0, 4, 1.0, 1.0, &even), AttractionError::Side { side: 0.0, least: 0.0 }.into());
     assert_eq!(new(1.0, 3, 1.0, 1.0, &even), ContinuityError::Cells { cells: 3 });
-    assert_eq!(new(1.0, 4, -1.0, 1.0, &even), ContinuityError::Strength { strength: -1.0 });
-    assert_eq!(new(1.0, 4, 1.0, 0.0, &even), ContinuityError::Length { length: 0.0 });
+    assert_eq!(new(1.0, 4, -1.0, 1.0, &even), AttractionError::Strength { strength: -1.0 }.into());
+    assert_eq!(new(1.0, 4, 1.0, 0.0, &even), AttractionError::Length { length: 0.0 }.into());
     assert_eq!(new(1.0, 5, 1.0, 1.0, &even), ContinuityError::Count { found: 16, cells: 5 });
     let mut dense = even;
     dense[3] = 0.4;
     assert!(matches!(new(1.0, 4, 1.0, 1.0, &dense), ContinuityError::Density { index: 3, .. }));
     let mut monolayer = of_table_1(4, Pressure::IdealGas, &even);
     monolayer.advance_to(1.0).unwrap();
-    assert_eq!(monolayer.advance_to(0.5), Err(ContinuityError::Time { asked: 0.5, time: 1.0 }));
+    assert_eq!(monolayer.advance_to(0.5), Err(EvolutionError::Time { asked: 0.5, time: 1.0 }));
 }

@@ -1,8 +1,9 @@
 //! Shells on their way inwards, those that have met as one.
 
-use super::attraction::Attraction;
+use super::Shell;
 use super::runge_kutta::dormand_prince;
-use super::{Shell, ShellsError};
+use crate::theory::EvolutionError;
+use crate::theory::attraction::Attraction;
 
 /// Estimated error of a step, of the largest R² at the start.
 const TOLERANCE: f64 = 1e-11;
@@ -73,12 +74,12 @@ impl<'a> Collapse<'a> {
     }
 
     /// Goes on to `until` (R0²/D), which is not before now.
-    pub(super) fn advance_to(&mut self, until: f64) -> Result<(), ShellsError> {
+    pub(super) fn advance_to(&mut self, until: f64) -> Result<(), EvolutionError> {
         while self.time < until && self.squares.iter().any(|&square| square > 0.0) {
             let left = until - self.time;
             let step = if self.step.is_finite() { self.step } else { self.first_step() }.min(left);
             if self.time + step <= self.time {
-                return Err(ShellsError::Stalled { time: self.time });
+                return Err(EvolutionError::Stalled { time: self.time });
             }
             let rates =
                 |squares: &[f64], into: &mut Vec<f64>| self.attraction.rates(squares, &self.discs, into);

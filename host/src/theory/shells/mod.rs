@@ -29,14 +29,14 @@
 //! // Screening slows it down.
 //! let screened = Shells::new(&rings, 0.89, 270.0)?;
 //! assert!(screened.radii_at(&[0.75 * jeans])?[0][6] > radii[0][6]);
-//! # Ok::<(), meniscus::theory::shells::ShellsError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod attraction;
 mod collapse;
 mod runge_kutta;
 
-use attraction::{Attraction, lattice_sum};
+use super::attraction::Attraction;
+use super::{AttractionError, EvolutionError};
 use collapse::Collapse;
 
 /// Discs spread evenly over a circle about the common centre.
@@ -74,40 +74,9 @@ pub enum ShellsError {
         /// The number given.
         discs: f64,
     },
-    /// An attraction of no use.
-    #[error("a capillary strength of {strength} kBT was given: it must be a number of at least 0")]
-    Strength {
-        /// V0 as given, kBT.
-        strength: f64,
-    },
-    /// A capillary length that is none.
-    #[error("a capillary length of {length} R0 was given: it must be positive; inf is allowed")]
-    Length {
-        /// λ as given, R0.
-        length: f64,
-    },
-    /// A box in which shells meet their images.
-    #[error(
-        "the box has the side {side} R0, the largest shell the radius {largest} R0: take more than twice that"
-    )]
-    Side {
-        /// L as given, R0.
-        side: f64,
-        /// The largest radius, R0.
-        largest: f64,
-    },
-    /// Times out of order.
-    #[error("the times must ascend from 0, {time} R0^2/D does not: sort them")]
-    Time {
-        /// The first that does not, R0²/D.
-        time: f64,
-    },
-    /// A time that cannot be reached with the precision of the numbers.
-    #[error("the shells cannot be followed beyond the time {time} R0^2/D: ask for earlier times")]
-    Stalled {
-        /// The last time reached, R0²/D.
-        time: f64,
-    },
+    /// No such attraction.
+    #[error(transparent)]
+    Attraction(#[from] AttractionError),
 }
 
 impl Shells {
@@ -115,7 +84,7 @@ impl Shells {
     /// may be infinite.
     ///
     /// # Errors
-    /// [`ShellsError::Radius`], [`ShellsError::Discs`], [`ShellsError::Strength`], [`ShellsError::Length`].
+    /// [`ShellsError`].
     pub fn new(
         shells: &[Shell],
         capillary_strength: f64,
@@ -129,32 +98,17 @@ impl Shells {
                 return Err(ShellsError::Discs { index, discs });
             }
         }
-        if !(capillary_strength >= 0.0 && capillary_strength.is_finite()) {
-            return Err(ShellsError::Strength { strength: capillary_strength });
-        }
-        if capillary_length.is_nan() || capillary_length <= 0.0 {
-            return Err(ShellsError::Length { length: capillary_length });
-        }
-        let attraction = Attraction {
-            strength: capillary_strength,
-            length: capillary_length,
-            images: None,
-            acts_on_itself: 1.0,
-        };
+        let attraction = Attraction::new(capillary_strength, capillary_length)?;
         Ok(Self { shells: shells.to_vec(), attraction })
     }
 
     /// The same with all periodic images in a box of `side` L (R0), on average over directions.
     ///
     /// # Errors
-    /// [`ShellsError::Side`] unless all radii are below L/2.
-    pub fn periodic(mut self, side: f64) -> Result<Self, ShellsError> {
+    /// [`AttractionError::Side`] unless all radii are below L/2.
+    pub fn periodic(self, side: f64) -> Result<Self, AttractionError> {
         let largest = self.shells.iter().map(|shell| shell.radius).fold(0.0, f64::max);
-        if !(side > 2.0 * largest && side.is_finite()) {
-            return Err(ShellsError::Side { side, largest });
-        }
-        self.attraction.images = Some(lattice_sum(self.attraction.length, side));
-        Ok(self)
+        Ok(Self { attraction: self.attraction.periodic(side, largest)?, ..self })
     }
 
     /// The same of discs that do not attract themselves: +V0/2r is added to the force on a disc of a shell.
@@ -180,7 +134,7 @@ impl Shells {
     /// // In a box of 100 R0 the background of 10 discs pushes outwards with 10π/100² per R0.
     /// let periodic = newtonian.periodic(100.0)?;
     /// assert!((periodic.forces()[1] - (-0.35 + 0.02 * core::f64::consts::PI)).abs() < 1e-15);
-    /// # Ok::<(), meniscus::theory::shells::ShellsError>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
     pub fn forces(&self) -> Vec<f64> {
@@ -197,14 +151,12 @@ impl Shells {
     /// R² errs by about 1e-9 of the largest R², and by 1e-8 after shells have met.
     ///
     /// # Errors
-    /// [`ShellsError::Time`] unless 0 ≤ t₁ ≤ t₂ ≤ …; [`ShellsError::Stalled`].
-    pub fn radii_at(&self, times: &[f64]) -> Result<Vec<Vec<f64>>, ShellsError> {
+    /// [`EvolutionError::Time`] unless 0 ≤ t₁ ≤ t₂ ≤ …; [`EvolutionError::Stalled`].
+    pub fn radii_at(&self, times: &[f64]) -> Result<Vec<Vec<f64>>, EvolutionError> {
         let mut collapse = Collapse::new(&self.shells, &self.attraction);
         let mut radii = Vec::with_capacity(times.len());
         for &time in times {
-            if !(time >= collapse.time() && time.is_finite()) {
-                return Err(ShellsError::Time { time });
-            }
+            EvolutionError::check(time, collapse.time())?;
             collapse.advance_to(time)?;
             radii.push((0..self.shells.len()).map(|index| collapse.radius(index)).collect());
         }

@@ -160,10 +160,10 @@ fn what_cannot_be_is_refused() {
         ShellsError::Radius { index: 1, radius: -1.0 }
     );
     assert_eq!(refused(Shell { discs: 0.0, ..ring }, 1.0, 1.0), ShellsError::Discs { index: 1, discs: 0.0 });
-    assert_eq!(refused(ring, -1.0, 1.0), ShellsError::Strength { strength: -1.0 });
-    assert_eq!(refused(ring, 1.0, 0.0), ShellsError::Length { length: 0.0 });
+    assert_eq!(refused(ring, -1.0, 1.0), AttractionError::Strength { strength: -1.0 }.into());
+    assert_eq!(refused(ring, 1.0, 0.0), AttractionError::Length { length: 0.0 }.into());
     let shells = Shells::new(&[ring], 1.0, 5.0).unwrap();
-    assert_eq!(shells.radii_at(&[2.0, 1.0]), Err(ShellsError::Time { time: 1.0 }));
-    assert!(matches!(shells.periodic(20.0), Err(ShellsError::Side { .. })));
+    assert_eq!(shells.radii_at(&[2.0, 1.0]), Err(EvolutionError::Time { asked: 1.0, time: 2.0 }));
+    assert!(matches!(shells.periodic(20.0), Err(AttractionError::Side { .. })));
     assert_eq!(Shells::new(&[], 1.0, 5.0).unwrap().radii_at(&[1.0]), Ok(vec![vec![]]));
 }
