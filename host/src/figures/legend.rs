@@ -50,6 +50,10 @@ impl Entries {
         })
     }
 
+    pub(super) fn len(&self) -> usize {
+        self.series.len()
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.series.is_empty()
     }

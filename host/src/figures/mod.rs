@@ -86,7 +86,8 @@ pub enum Panel {
 
 /// Where a legend stands, always outside of the plotting areas.
 ///
-/// It is one for all panels, unless the same look means different things in them: then each has its own.
+/// It is one for all panels, unless the same look means different things in them: then each has its own. Beside them, each
+/// has its own also where no two panels have an entry in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Legend {
     /// On the right.
