@@ -75,7 +75,7 @@ fn powers_are_those_of_the_definition() {
         let discs = scattered(seed, count);
         assert!(largest_difference(&Waves::of_shells(12), &discs) < DENSITY_MODE, "{count} discs");
     }
-    assert!(largest_difference(&Waves::selected(300, 2), &scattered(5, 20)) < DENSITY_MODE);
+    assert!(largest_difference(&Waves::selected(1..=300, 2), &scattered(5, 20)) < DENSITY_MODE);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn scattered_discs_have_the_power_of_shot_noise() {
 
 #[test]
 fn a_selection_is_even_and_leaves_small_shells_whole() {
-    let waves = Waves::selected(200, 20);
+    let waves = Waves::selected(1..=200, 20);
     let all = Waves::of_shells(200);
     for (shell, whole) in waves.shells().iter().zip(all.shells()) {
         let (some, every) = (&waves.vectors()[shell.waves.clone()], &all.vectors()[whole.waves.clone()]);

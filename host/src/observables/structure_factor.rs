@@ -2,7 +2,9 @@
 //!
 //! In: the box and positions. Out: S for each shell of wavenumbers (see [`waves`](super::waves)), a pure number: 1 for
 //! discs that know nothing of each other, and for k → ∞. Shells of long waves are averaged over all their waves, larger
-//! ones over a selection that is always the same ([`Waves::selected`]). k = 0, where |ρ̂|²/N = N, is left out.
+//! ones over a selection that is always the same ([`Waves::selected`]). Of more than [`SHELLS_KEPT`] shells only the first
+//! half of that number are all taken, the others at ever larger distances, so that a large box costs what a small one does
+//! per disc. k = 0, where |ρ̂|²/N = N, is left out.
 //!
 //! ```
 //! use meniscus::observables::structure_factor::{StructureFactor, WAVES_PER_SHELL};
@@ -24,6 +26,9 @@ use meniscus_core::torus::{Position, Torus};
 
 /// Number of waves a shell that leaves of the scatter of S, which is S itself for one wave, a tenth.
 pub const WAVES_PER_SHELL: usize = 100;
+
+/// Number of shells that are looked at: all up to half of it, beyond that in geometric progression.
+pub const SHELLS_KEPT: u32 = 512;
 
 /// Number of shells beyond which a largest wavenumber is refused.
 pub const MOST_SHELLS: u32 = 1 << 16;
@@ -81,7 +86,7 @@ impl StructureFactor {
         if most == 0 {
             return Err(StructureFactorError::NoWaves);
         }
-        Ok(Self { waves: Waves::selected(shells as u32, most), unit })
+        Ok(Self { waves: Waves::selected(kept(shells as u32), most), unit })
     }
 
     /// S of each shell, in rising order, with discs at `positions`; empty without discs.
@@ -104,5 +109,47 @@ impl StructureFactor {
                 }
             })
             .collect()
+    }
+}
+
+/// Of the shells 1 to `last` those that are looked at, in rising order, `last` among them.
+fn kept(last: u32) -> impl Iterator<Item = u32> {
+    let few = last <= SHELLS_KEPT;
+    let (all, thinned) = if few { (last, 0) } else { (SHELLS_KEPT / 2, SHELLS_KEPT / 2) };
+    let growth = libm::log(f64::from(last) / f64::from(all.max(1))) / f64::from(thinned.max(1));
+    let number = move |place: u32| libm::round(f64::from(all) * libm::exp(growth * f64::from(place))) as u32;
+    // Where neighbours lie less than a shell apart, rounding may name one twice.
+    (1..=all).chain(
+        (1..=thinned)
+            .map(number)
+            .scan(all, |before, shell| {
+                let shell = shell.max(*before + 1);
+                *before = shell;
+                Some(shell)
+            })
+            .take_while(move |shell| *shell <= last),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_few_shells_all_are_kept_and_of_many_the_first_and_the_last() {
+        for last in [1, 2, 318, SHELLS_KEPT] {
+            assert!(kept(last).eq(1..=last), "{last}");
+        }
+        for last in [SHELLS_KEPT + 1, 600, 1000, 6366, MOST_SHELLS] {
+            let shells: Vec<u32> = kept(last).collect();
+            assert!(shells.len() <= SHELLS_KEPT as usize && shells.is_sorted_by(|a, b| a < b), "{last}");
+            assert!(shells.starts_with(&(1..=SHELLS_KEPT / 2).collect::<Vec<_>>()), "{last}");
+            assert_eq!(shells.last(), Some(&last));
+            // Never a gap of more than a few per cent of k.
+            assert!(
+                shells.windows(2).all(|pair| f64::from(pair[1]) < 1.03 * f64::from(pair[0]) + 1.0),
+                "{last}"
+            );
+        }
     }
 }

@@ -80,14 +80,14 @@ impl Waves {
         Self::new(shells.map(|shell| (shell, quadrant_of(shell).into_iter().filter(inside).collect())))
     }
 
-    /// Waves of the shells 1 to `shells`: all where there are at most `most`, else about `most` in directions spread
+    /// Waves of `shells`, numbers from 1: all where there are at most `most`, else about `most` in directions spread
     /// evenly over each quadrant.
     ///
     /// From a shell with too many, those with l ≥ 0 and m ≥ 0 are put in the order of their angle and every so
     /// many-th is taken, together with its mirror image (l, −m): the same ones always.
     #[must_use]
-    pub fn selected(shells: u32, most: usize) -> Self {
-        Self::new((1..=shells).map(|shell| (shell, thinned(quadrant_of(shell), most))))
+    pub fn selected(shells: impl IntoIterator<Item = u32>, most: usize) -> Self {
+        Self::new(shells.into_iter().map(|shell| (shell, thinned(quadrant_of(shell), most))))
     }
 
     fn new(shells: impl Iterator<Item = (u32, Vec<[u32; 2]>)>) -> Self {
