@@ -10,9 +10,12 @@ use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, REACHES, THRESHOLD, side};
 use crate::reproduce::evidence::{Evidence, FinishedRun, curves};
 use crate::reproduce::finding::{Criterion, Finding};
-use crate::reproduce::statistics::{Curves, maximum};
+use crate::reproduce::statistics::{Curve, Curves, average, maximum};
 
-/// n_c, S and φ by both.
+/// A number read off a curve.
+type Read<'a> = &'a dyn Fn(&Curve) -> Option<f64>;
+
+/// n_c, S and the largest cluster by both.
 ///
 /// # Errors
 /// [`ReproduceError`].
@@ -42,37 +45,26 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let caption = "Table I (λ/L = 0.54) by the split force and by the paper's mesh of spacing 0.98 R0 with triangular shaped clouds.";
     built.draw("meshes", caption, &Figure::new("", panels))?;
     let [split, mesh] = [&sets[0].1, &sets[1].1];
-    let clusters = [split, mesh].map(|runs| some(runs, Series::Observables, "clusters", None));
-    let [of_split, of_mesh] = clusters;
-    let (of_split, of_mesh) = (of_split?, of_mesh?);
-    let same = || Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05).ours();
-    let paper = "(ours) mesh alone and split force agree";
-    built.findings.push(
-        Finding::new("clusters over 0 to 5 T, mesh alone over split force", paper, same())
-            .measured(quotient(&of_mesh, &of_split, |curve| integral(curve, 5.0))),
-    );
-    built.findings.push(
-        Finding::new("most clusters, mesh alone over split force", paper, same()).measured(quotient(
-            &of_mesh,
-            &of_split,
-            |curve| maximum(curve, WINDOW).map(|peak| peak.1),
-        )),
-    );
-    built.findings.push(
-        Finding::new("time of the most clusters, mesh alone over split force", paper, same())
-            .measured(quotient(&of_mesh, &of_split, |curve| maximum(curve, WINDOW).map(|peak| peak.0))),
-    );
-    let lengths = [split, mesh]
-        .map(|runs| some(runs, Series::Minkowski, "pixel_length", Some(("threshold", THRESHOLD))));
-    let [of_split, of_mesh] = lengths;
-    let (of_split, of_mesh) = (of_split?, of_mesh?);
-    built.findings.push(
-        Finding::new("largest M1, mesh alone over split force", paper, same()).measured(quotient(
-            &of_mesh,
-            &of_split,
-            |curve| maximum(curve, WINDOW).map(|peak| peak.1),
-        )),
-    );
+    let both = |series, column, key| -> Result<[Option<Curves>; 2], ReproduceError> {
+        Ok([some(mesh, series, column, key)?, some(split, series, column, key)?])
+    };
+    let clusters = both(Series::Observables, "clusters", None)?;
+    let largest = both(Series::Observables, "largest_cluster", None)?;
+    let lengths = both(Series::Minkowski, "pixel_length", Some(("threshold", THRESHOLD)))?;
+    let peak = |curve: &Curve| maximum(curve, WINDOW);
+    let findings: [(&str, &[_; 2], Read<'_>); 5] = [
+        ("clusters over 0 to 5 T", &clusters, &|curve| integral(curve, 5.0)),
+        ("most clusters", &clusters, &|curve| peak(curve).map(|(_, height)| height)),
+        ("time of the most clusters", &clusters, &|curve| peak(curve).map(|(time, _)| time)),
+        ("share of discs in the largest cluster at 5 T", &largest, &|curve| average(curve, 4.9, 5.1)),
+        ("largest M1", &lengths, &|curve| peak(curve).map(|(_, height)| height)),
+    ];
+    for (what, [of_mesh, of_split], read) in findings {
+        let quantity = format!("{what}, mesh alone over split force");
+        let paper = "(ours) mesh alone and split force agree";
+        let same = Criterion::equals(1.0, 0.05).with_errors(2.0, 0.05).ours();
+        built.findings.push(Finding::new(quantity, paper, same).measured(quotient(of_mesh, of_split, read)));
+    }
     built
         .notes
         .push("Quotients are of the runs whose seeds both have: they begin with the same discs.".to_owned());
