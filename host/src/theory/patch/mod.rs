@@ -11,6 +11,10 @@
 //! dimensions), is D for the ideal gas, and ends where discs are packed. The mean radius of the discs followed is what is
 //! measured of groups of discs.
 //!
+//! On a mesh ([`continuity`](super::continuity)) what is pulled by more than kBT from cell to cell spreads too fast: 128² cells in
+//! the box of Fig. 14 leave its patch 3 % too large at 0.8 T, an error that falls with the first power of the spacing. Here 64 shells
+//! err by 0.2 %.
+//!
 //! Pressure is implicit, so steps are as long as accuracy asks for: one Euler step and two of half the length make one of second
 //! order and an estimate of the error.
 //!
@@ -41,7 +45,7 @@ use mixing::mix;
 use squeeze::{apart, squeezed};
 
 /// Estimated error of a step, of the largest R² at the start.
-const TOLERANCE: f64 = 1e-6;
+const TOLERANCE: f64 = 3e-5;
 
 /// Fraction of the largest density of an equation of state that nothing may exceed.
 const DENSEST: f64 = 0.999_999;
