@@ -119,7 +119,7 @@ pub const CATALOGUE: [Entry; 17] = [
         paper: "Rings of R_i = 58, 95 and 135 R0 of a patch of 451 discs of radius 183 R0, λ/R = 1.48, in a box of 800 R0: Eq. 30 fits well over \
                 0 < t < 0.9 T with (A0, R_f) = (1.15, 18), (1.16, 13), (1.16, 8) from the top; A0 depends but weakly on R_i.",
         campaigns: &[Campaign::Rings],
-        build: collapse::rings,
+        build: collapse::rings::build,
     },
     Entry {
         name: "fig-13",
@@ -127,7 +127,7 @@ pub const CATALOGUE: [Entry; 17] = [
         paper: "The outermost ring at λ/R = 1, 1.48, 5.9: upon increasing λ the collapse time decreases, eventually leading to a collapse at T, \
                 A0(λ → ∞) = 1.",
         campaigns: &[Campaign::Rings],
-        build: collapse::lengths,
+        build: collapse::lengths::build,
     },
     Entry {
         name: "fig-14",
@@ -135,7 +135,7 @@ pub const CATALOGUE: [Entry; 17] = [
         paper: "Ten runs, shells of 7.5 R0: Eq. 30 fits over 0 < t < 0.9 T with (A0, R_f) = (1.16, 18), (1.16, 13), (1.14, 9) from the top; later R \
                 approaches R_f more smoothly, and later than A0·T.",
         campaigns: &[Campaign::Disc],
-        build: collapse::disc,
+        build: collapse::disc::build,
     },
     Entry {
         name: "forces",

@@ -88,7 +88,7 @@ pub fn number(evidence: &Evidence) -> Result<Built, ReproduceError> {
 pub fn mass(evidence: &Evidence) -> Result<Built, ReproduceError> {
     let mut built = Built::default();
     let averages =
-        [("mean_cluster_size", "S, number average"), ("mass_weighted_cluster_size", "mass average")];
+        [("mean_cluster_size", "S, number average"), ("mass_weighted_cluster_size", "S, mass average")];
     let mut panels = Vec::new();
     for (column, label) in averages {
         for (short, title) in [(true, "short-ranged"), (false, "long-ranged")] {

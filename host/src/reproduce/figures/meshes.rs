@@ -4,7 +4,7 @@ use super::clusters::{WINDOW, integral, quotient};
 use super::{Built, drawn, time_axis};
 use crate::figures::axis::Axis;
 use crate::figures::chart::{Chart, Colour, Dash, Style};
-use crate::figures::{Figure, Panel};
+use crate::figures::{Figure, Legend, Panel};
 use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, REACHES, THRESHOLD, side};
@@ -43,7 +43,8 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
         panels.push(Panel::Chart(chart));
     }
     let caption = "Table I (λ/L = 0.54) by the split force and by the paper's mesh of spacing 0.98 R0 with triangular shaped clouds.";
-    built.draw("meshes", caption, &Figure::new("", panels))?;
+    let figure = Figure { legend: Legend::Below, ..Figure::new("", panels) };
+    built.draw("meshes", caption, &figure)?;
     let [split, mesh] = [&sets[0].1, &sets[1].1];
     let both = |series, column, key| -> Result<[Option<Curves>; 2], ReproduceError> {
         Ok([some(mesh, series, column, key)?, some(split, series, column, key)?])

@@ -24,4 +24,4 @@ mod curves;
 mod readings;
 
 pub use curves::{Curve, Curves, Row, Run};
-pub use readings::{average, line, maximum, reaches};
+pub use readings::{average, interpolated, line, maximum, reaches};

@@ -90,6 +90,18 @@ pub fn reaches(curve: &[(f64, f64)], level: f64) -> Option<f64> {
     })
 }
 
+/// The value of a curve at `time`, between points by a straight line; None before its first point and after its last.
+#[must_use]
+pub fn interpolated(curve: &[(f64, f64)], time: f64) -> Option<f64> {
+    let exact = curve.iter().find(|point| point.0 == time).map(|point| point.1);
+    exact.or_else(|| {
+        let around =
+            |pair: &&[(f64, f64)]| matches!(pair, [before, after] if before.0 < time && time < after.0);
+        let [before, after] = curve.windows(2).find(around)? else { return None };
+        Some(before.1 + (after.1 - before.1) * (time - before.0) / (after.0 - before.0))
+    })
+}
+
 /// The mean of a curve over times from `from` to `to`; None if no point lies there.
 #[must_use]
 pub fn average(curve: &[(f64, f64)], from: f64, to: f64) -> Option<f64> {
@@ -133,6 +145,9 @@ mod tests {
     fn a_level_is_reached_between_points() {
         assert_eq!(reaches(&curve(4, 1.0, |time| 2.0 * time), 3.0), Some(1.5));
         assert_eq!(reaches(&curve(4, 1.0, |time| 2.0 * time), 7.0), None);
+        let steep = curve(4, 1.0, |time| time * time);
+        assert_eq!([0.0, 2.5, 3.0].map(|time| interpolated(&steep, time)), [Some(0.0), Some(6.5), Some(9.0)]);
+        assert_eq!(interpolated(&steep, 3.1), None);
         assert_eq!(average(&curve(5, 1.0, |time| time), 1.0, 3.0), Some(2.0));
     }
 }
