@@ -1,6 +1,6 @@
 //! Fig. 12: three rings of a cold patch.
 
-use super::theory::{lines, of_ring};
+use super::theory::{Surroundings, lines, of_ring};
 use super::{
     DELAY, Printed, add, closest, delay, fitted, groups, largest_deviation, mean, picture, printed, radii,
 };
@@ -71,7 +71,7 @@ pub fn build(evidence: &Evidence) -> Result<Built, ReproduceError> {
         let shown = RINGS.iter().filter_map(|ring| closest(&groups, ring.initial));
         let (mut shells, mut eq13) = (Vec::new(), Vec::new());
         for group in shown {
-            let theory = of_ring(&run.configuration, group).unwrap_or_default();
+            let theory = of_ring(&run.configuration, group, Surroundings::Images).unwrap_or_default();
             let times = (0..=100).map(|step| 0.01 * f64::from(step));
             eq13.push(times.map(|time| (time, cold_collapse_radius(group.initial, time))).collect::<Curve>());
             let measured = mean(&radii(&runs, group)?);

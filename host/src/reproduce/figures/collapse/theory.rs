@@ -23,8 +23,8 @@ fn times(configuration: &Configuration) -> impl Iterator<Item = f64> {
     (0..=rows).map(|row| f64::from(row) / ROWS)
 }
 
-/// The shells of a configuration's rings, with images.
-fn shells(configuration: &Configuration) -> Option<Shells> {
+/// The shells of a configuration's rings.
+fn shells(configuration: &Configuration, surroundings: Surroundings) -> Option<Shells> {
     let Start::Rings { rings, spacing, per_ring } = configuration.start else { return None };
     let ring = |number: u32| Shell {
         radius: spacing * f64::from(number),
@@ -32,18 +32,32 @@ fn shells(configuration: &Configuration) -> Option<Shells> {
     };
     let all: Vec<Shell> = (0..=rings).map(ring).collect();
     let system = &configuration.system;
-    Shells::new(&all, system.capillary_strength, system.capillary_length)
-        .ok()?
-        .periodic(system.side)
-        .ok()
-        .map(Shells::of_discs)
+    let shells = Shells::new(&all, system.capillary_strength, system.capillary_length).ok()?;
+    let shells = match surroundings {
+        Surroundings::Images => shells.periodic(system.side).ok()?,
+        Surroundings::Nothing => shells,
+    };
+    Some(shells.of_discs())
+}
+
+/// What is around a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Surroundings {
+    /// Its periodic images, and what neutralises them if λ → ∞.
+    Images,
+    /// The open plane.
+    Nothing,
 }
 
 /// R(t) of a cold ring, up to when it has shrunk to nothing.
-pub(super) fn of_ring(configuration: &Configuration, group: Group) -> Option<Curve> {
+pub(super) fn of_ring(
+    configuration: &Configuration,
+    group: Group,
+    surroundings: Surroundings,
+) -> Option<Curve> {
     let jeans = configuration.jeans_time()?;
     let units: Vec<f64> = times(configuration).map(|time| time * jeans).collect();
-    let radii = shells(configuration)?.radii_at(&units).ok()?;
+    let radii = shells(configuration, surroundings)?.radii_at(&units).ok()?;
     let ring = group.number as usize;
     let mut curve = Curve::new();
     for (time, radii) in times(configuration).zip(radii) {
