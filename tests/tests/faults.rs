@@ -106,6 +106,12 @@ fn a_second_run_in_a_directory_is_refused_while_the_first_is_at_work() {
     let busy = ["run: another run is at work in this directory", "wait"];
     refuse(folder.path(), &["resume", "run"], &busy);
     refuse(folder.path(), &run("run", &[]), &busy);
+    // Nor does it help to remove what is locked.
+    if cfg!(target_os = "linux") {
+        fs::remove_file(folder.path().join("run/lock")).unwrap();
+        refuse(folder.path(), &["resume", "run"], &busy);
+        refuse(folder.path(), &run("run", &[]), &["run: "]);
+    }
     first.kill().unwrap();
     first.wait().unwrap();
     // What a kill leaves behind is in nobody's way.

@@ -54,7 +54,7 @@ impl Directory {
             }
             Ok(false)
         };
-        if is_used().map_err(|source| RunError::Write { path: path.to_owned(), source })? {
+        if is_used().map_err(|problem| FileError::Write { path: path.to_owned(), problem })? {
             // Whoever is at work there is the better reason.
             if path.join(lock::FILE).exists() {
                 Lock::take(path)?;
@@ -66,7 +66,7 @@ impl Directory {
 
     /// Makes the directory if it is not there and the files a run begins with.
     pub(super) fn create(path: &Path, simulation: &Simulation) -> Result<Self, RunError> {
-        fs::create_dir_all(path).map_err(|source| RunError::Write { path: path.to_owned(), source })?;
+        fs::create_dir_all(path).map_err(|problem| FileError::Write { path: path.to_owned(), problem })?;
         let lock = Lock::take(path)?;
         Self::refuse_used(path)?;
         let configuration = &simulation.configuration;
@@ -224,8 +224,8 @@ fn snapshot_name(index: u64) -> String {
 /// which it will draw again.
 fn remove_leftovers(directory: &Path, next_snapshot: u64) -> Result<(), RunError> {
     store::remove_partial(directory)?;
-    let entries =
-        fs::read_dir(directory).map_err(|source| RunError::Write { path: directory.to_owned(), source })?;
+    let entries = fs::read_dir(directory)
+        .map_err(|problem| FileError::Write { path: directory.to_owned(), problem })?;
     for entry in entries.flatten() {
         let name = entry.file_name();
         let Some(name) = name.to_str() else { continue };
@@ -234,7 +234,7 @@ fn remove_leftovers(directory: &Path, next_snapshot: u64) -> Result<(), RunError
         let is_later = index.is_some_and(|index| index >= next_snapshot && snapshot_name(index) == name);
         if is_later || atomic::is_unfinished(name) {
             let path = entry.path();
-            fs::remove_file(&path).map_err(|source| RunError::Write { path, source })?;
+            fs::remove_file(&path).map_err(|problem| FileError::Write { path, problem })?;
         }
     }
     Ok(())

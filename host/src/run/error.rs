@@ -32,15 +32,7 @@ pub enum RunError {
         /// Why not, and what to do.
         reason: &'static str,
     },
-    /// A file could not be written.
-    #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A file could not be written.
+    /// A file or directory could not be made or written.
     #[error(transparent)]
     File(#[from] FileError),
     /// A picture could not be made.

@@ -16,7 +16,7 @@ pub(super) struct Growing {
 impl Growing {
     /// Makes the file, which must not exist.
     pub(super) fn create(path: &Path) -> Result<Self, RunError> {
-        let file = File::create_new(path).map_err(|source| written(path, source))?;
+        let file = File::create_new(path).map_err(|problem| written(path, problem))?;
         Ok(Self { file: BufWriter::new(file), place: Place::of(path)? })
     }
 
@@ -28,7 +28,7 @@ impl Growing {
             let found = file.metadata()?.len();
             Ok((file, found))
         };
-        let (file, found) = open().map_err(|source| written(path, source))?;
+        let (file, found) = open().map_err(|problem| written(path, problem))?;
         if found < length {
             let (found, expected) = (format!("{found} bytes"), format!("{length} bytes"));
             return Err(RunError::Lost(FileError::Extent { path: path.to_owned(), found, expected }));
@@ -43,7 +43,7 @@ impl Growing {
             .get_ref()
             .set_len(length)
             .and_then(|()| self.file.seek(SeekFrom::Start(length)))
-            .map_err(|source| written(&self.place.path, source))?;
+            .map_err(|problem| written(&self.place.path, problem))?;
         Ok(())
     }
 
@@ -53,7 +53,7 @@ impl Growing {
         self.file
             .write_all(lines.as_bytes())
             .and_then(|()| self.file.flush())
-            .map_err(|source| written(&self.place.path, source))?;
+            .map_err(|problem| written(&self.place.path, problem))?;
         self.place.length += lines.len() as u64;
         Ok(())
     }
@@ -61,7 +61,7 @@ impl Growing {
     /// Waits until the file is on the disk, and tells its length.
     pub(super) fn sync(&mut self) -> Result<u64, RunError> {
         self.place.check()?;
-        self.file.get_ref().sync_all().map_err(|source| written(&self.place.path, source))?;
+        self.file.get_ref().sync_all().map_err(|problem| written(&self.place.path, problem))?;
         Ok(self.place.length)
     }
 }
@@ -82,7 +82,7 @@ type Identity = Option<(u64, u64)>;
 impl Place {
     /// The file that is at `path`.
     pub(super) fn of(path: &Path) -> Result<Self, RunError> {
-        let metadata = fs::metadata(path).map_err(|source| written(path, source))?;
+        let metadata = fs::metadata(path).map_err(|problem| written(path, problem))?;
         Ok(Self { path: path.to_owned(), identity: identity(&metadata), length: metadata.len() })
     }
 
@@ -123,6 +123,6 @@ fn identity(_: &fs::Metadata) -> Identity {
     None
 }
 
-fn written(path: &Path, source: std::io::Error) -> RunError {
-    RunError::Write { path: path.to_owned(), source }
+fn written(path: &Path, problem: std::io::Error) -> FileError {
+    FileError::Write { path: path.to_owned(), problem }
 }

@@ -46,6 +46,7 @@ pub use unbegun::clear_unbegun;
 use crate::checkpoint::Checkpoint;
 use crate::configuration::Output;
 use crate::engine::MeshReuse;
+use crate::files::FileError;
 use crate::files::atomic::check_folder;
 use crate::files::trajectory::Frame;
 use crate::golden::Golden;
@@ -123,7 +124,7 @@ impl GoldenRequest {
             return Err(RunError::GoldenExists(self.path.clone()));
         }
         let absolute = |path: &Path| {
-            std::path::absolute(path).map_err(|source| RunError::Write { path: path.to_owned(), source })
+            std::path::absolute(path).map_err(|problem| FileError::Write { path: path.to_owned(), problem })
         };
         let (own, path, run) =
             (Self::in_directory(directory).path, absolute(&self.path)?, absolute(directory)?);

@@ -4,6 +4,7 @@ use super::RunError;
 use super::lock::{self, Lock};
 use super::manifest;
 use crate::checkpoint::store;
+use crate::files::FileError;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -14,13 +15,13 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`RunError::Locked`] if a run is at work there, [`RunError::NotEmpty`] if the directory is left as it is, and
-/// [`RunError::Write`].
+/// [`RunError::File`].
 pub fn clear_unbegun(directory: &Path) -> Result<(), RunError> {
-    let failed = |source| RunError::Write { path: directory.to_owned(), source };
+    let failed = |problem| FileError::Write { path: directory.to_owned(), problem };
     let lock = match directory.try_exists() {
         Ok(false) => return Ok(()),
         Ok(true) => Lock::take(directory)?,
-        Err(source) => return Err(failed(source)),
+        Err(problem) => return Err(failed(problem).into()),
     };
     let entries = fs::read_dir(directory).and_then(Iterator::collect::<std::io::Result<Vec<_>>>);
     let entries = entries.map_err(failed)?;
@@ -34,8 +35,8 @@ pub fn clear_unbegun(directory: &Path) -> Result<(), RunError> {
     }
     for entry in entries.iter().filter(|entry| entry.file_name() != lock::FILE) {
         match fs::remove_file(entry.path()) {
-            Err(source) if source.kind() != ErrorKind::NotFound => {
-                return Err(RunError::Write { path: entry.path(), source });
+            Err(problem) if problem.kind() != ErrorKind::NotFound => {
+                return Err(FileError::Write { path: entry.path(), problem }.into());
             }
             _ => {}
         }
