@@ -165,10 +165,37 @@ fn a_result_that_cannot_be_written_is_an_error_and_the_run_is_there() {
 
 #[test]
 #[cfg(target_os = "linux")]
+fn an_ensemble_runs_as_many_at_a_time_as_memory_suffices_for() {
+    let program = program();
+    // 98 MB each, of which none is taken here.
+    let sweep = "version = 1\nconfiguration = \"small.toml\"\nseeds = 8\n\
+                 set = [\"system.box=1024\", \"mesh.grid=64\", \"output.minkowski=0.1\", \"output.minkowski_spacing=0.5\"]\n";
+    program.write("sweep.toml", sweep);
+    let run = |limit: &str| {
+        let line = "meniscus ensemble sweep.toml --workers 8 --max-wall 0";
+        let output = program.shell(&format!("{limit}{line}"));
+        assert!(output.status.success(), "{}", errors(&output));
+        errors(&output)
+    };
+    let said = run("ulimit -v 450000; ");
+    let told = said.lines().find(|line| line.starts_with("memory: ")).unwrap_or_default();
+    assert!(
+        told.contains(
+            "the limit of the address space, ulimit -v), too little for 8 of these runs at a time: "
+        ),
+        "{said}"
+    );
+    let at_a_time: usize = told.rsplit(' ').next().unwrap().parse().unwrap();
+    assert!((2..=4).contains(&at_a_time), "{said}");
+    assert!(!run("").contains("memory: "), "there is more than 800 MB here");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
 fn a_run_that_memory_would_not_suffice_for_is_refused_before_it_asks() {
     let program = program();
     let large = "run table-1 --out never --set force.method=pm --set system.particles=4194304 \
-                 --set system.box=32768 --set mesh.grid=4096";
+                 --set system.box=32768 --set mesh.grid=4096 --set output.observables=0";
     let output = program.shell(&format!("ulimit -v 500000; meniscus {large}"));
     let said = errors(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
@@ -176,6 +203,12 @@ fn a_run_that_memory_would_not_suffice_for_is_refused_before_it_asks() {
     assert!(said.starts_with(&format!("error: {bytes}")), "{said}");
     assert!(said.contains("ulimit -v") && said.lines().count() == 1, "{said}");
     assert!(!program.folder().join("never").exists());
+    let fine = "run small.toml --out never --set system.box=4096 --set mesh.grid=256 --set output.minkowski=0.1 \
+                --set output.minkowski_spacing=0.5";
+    let output = program.shell(&format!("ulimit -v 500000; meniscus {fine}"));
+    let part = "1610612736 of them for the rows of minkowski, and ";
+    assert!(errors(&output).contains(part), "{}", errors(&output));
+    assert!(errors(&output).contains("or take a larger output.minkowski_spacing"), "{}", errors(&output));
     // What fits is not refused: the same limit, a smaller mesh.
     let small =
         program.shell("ulimit -v 500000; meniscus run small.toml --until 0.01 --out small --threads 1");

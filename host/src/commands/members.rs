@@ -4,7 +4,7 @@
 use super::Reporter;
 use super::progress::{LINE_INTERVAL, REFRESH, duration};
 use super::reporter::say;
-use crate::ensemble::{Fate, Member, Observer};
+use crate::ensemble::{Fate, Limited, Member, Observer};
 use crate::simulation::Simulation;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
@@ -115,6 +115,16 @@ impl Members {
 }
 
 impl Observer for Members {
+    fn limited(&self, limited: &Limited) {
+        let Limited { side_by_side, workers, available } = limited;
+        if let Some((bytes, limit)) = available {
+            let gigabytes = *bytes as f64 / 1e9;
+            self.note(&format!(
+                "memory: {gigabytes:.1} GB can be had ({limit}), too little for {workers} of these runs at a time: {side_by_side}"
+            ));
+        }
+    }
+
     fn began(&self, member: &Member, simulation: &Simulation) {
         let now = Instant::now();
         let part = part(simulation);

@@ -63,7 +63,7 @@ pub(crate) use bins::Bins;
 pub use error::{EnsembleError, MemberError};
 pub use gather::{Gathered, gather, gather_sweep};
 pub use member::{Member, RUNS, Setting};
-pub use observer::{Nobody, Observer};
+pub use observer::{Limited, Nobody, Observer};
 pub use pool::{Fate, LARGE_GRID, LARGE_PARTICLES, Report, Request, run};
 pub use selection::Selection;
 pub use standing::{Finished, Standing};

@@ -4,8 +4,22 @@ use super::member::Member;
 use super::pool::Fate;
 use crate::simulation::Simulation;
 
+/// Fewer members are run side by side than there are workers, for want of memory; each has more threads instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limited {
+    /// How many at a time.
+    pub side_by_side: usize,
+    /// How many there might be.
+    pub workers: usize,
+    /// Bytes of memory that can be had, and who says so.
+    pub available: Option<(u64, &'static str)>,
+}
+
 /// Whoever watches an ensemble being run; called from all threads that run members. It can change nothing.
 pub trait Observer: Sync {
+    /// Memory limits how many members are run side by side. Called before any begins.
+    fn limited(&self, _limited: &Limited) {}
+
     /// A member is about to step for the first time, or for the first time since it was stopped.
     fn began(&self, _member: &Member, _simulation: &Simulation) {}
 

@@ -2,12 +2,14 @@
 
 use super::error::{EnsembleError, MemberError};
 use super::member::{Member, RUNS};
-use super::observer::Observer;
+use super::observer::{Limited, Observer};
 use super::standing::{Standing, refuse_other};
 use super::sweep::Sweep;
 use super::{Selection, keep_sweep};
 use crate::checkpoint::store::LatestError;
 use crate::engine::Machinery;
+use crate::files::FileError;
+use crate::memory;
 use crate::run::{GoldenRequest, Resumed, Run, RunError, Stop, clear_unbegun};
 use crate::simulation::Simulation;
 use std::fs;
@@ -107,12 +109,16 @@ pub fn run(
         return Err(EnsembleError::Index { index, count: members.len() });
     }
     let runs = directory.join(RUNS);
-    fs::create_dir_all(&runs).map_err(|source| EnsembleError::Write { path: runs, source })?;
+    fs::create_dir_all(&runs).map_err(|problem| FileError::Write { path: runs, problem })?;
     keep_sweep(sweep, directory)?;
     let chosen = members.iter().filter(|member| request.selection.holds(member.index));
     let (large, small): (Vec<&Member>, Vec<&Member>) = chosen.partition(|member| is_large(member));
     let workers = request.workers.max(1);
-    let side_by_side = workers.min(small.len()).max(1);
+    let available = memory::available();
+    let side_by_side = side_by_side(&small, workers, available.map(|(bytes, _)| bytes));
+    if side_by_side < workers.min(small.len()) {
+        observer.limited(&Limited { side_by_side, workers, available });
+    }
     let work = |members: &[&Member], next: &AtomicUsize, threads: usize| {
         let mut fates = Vec::new();
         while let Some(member) = members.get(next.fetch_add(1, Ordering::Relaxed)) {
@@ -136,6 +142,19 @@ pub fn run(
     fates.extend(work(&large, &AtomicUsize::new(0), workers));
     fates.sort_by_key(|(index, _)| *index);
     Ok(Report { fates })
+}
+
+/// How many of `members` may be at work at a time: as many as there are workers, and as `available` bytes of memory
+/// suffice for, whichever they are; one at least, which is refused if it does not fit.
+fn side_by_side(members: &[&Member], workers: usize, available: Option<u64>) -> usize {
+    let mut needed: Vec<u64> = members.iter().map(|member| memory::estimate(&member.configuration)).collect();
+    needed.sort_unstable_by(|one, other| other.cmp(one));
+    let sums = needed.iter().scan(0_u64, |sum, bytes| {
+        *sum = sum.saturating_add(*bytes);
+        Some(*sum)
+    });
+    let fitting = sums.take_while(|sum| available.is_none_or(|available| *sum <= available)).count();
+    workers.min(fitting).max(1)
 }
 
 /// Brings one member to its end, if nobody stops it.
@@ -218,4 +237,34 @@ fn open(
 fn has_finished(member: &Member, directory: &Path) -> Result<bool, MemberError> {
     let ensemble = directory.parent().and_then(Path::parent).unwrap_or(directory);
     Ok(matches!(Standing::of(member, ensemble)?, Standing::Finished(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_members_are_at_work_as_fit() {
+        let text = "version = 1\npreset = \"fig-5\"\nset = [\"force.method=pm\", \"mesh.grid=64\"]\nseeds = 2\n\
+                    [sweep]\n\"system.particles\" = [2500, 100000]\n";
+        let sweep = Sweep::from_text("sizes", text, Path::new("")).unwrap();
+        let members: Vec<&Member> = sweep.members().iter().collect();
+        let needed = |index: usize| memory::estimate(&members[index].configuration);
+        let (small, large) = (needed(0), needed(3));
+        assert!(large > 5 * small);
+        for (workers, available, expected) in [
+            (4, None, 4),
+            (9, None, 4),
+            (3, Some(u64::MAX), 3),
+            (4, Some(2 * (small + large)), 4),
+            (4, Some(2 * (small + large) - 1), 3),
+            (4, Some(2 * large), 2),
+            (4, Some(2 * large - 1), 1),
+            // It is refused by itself.
+            (4, Some(0), 1),
+        ] {
+            assert_eq!(side_by_side(&members, workers, available), expected, "{workers} {available:?}");
+        }
+        assert_eq!(side_by_side(&[], 4, None), 1);
+    }
 }

@@ -88,6 +88,13 @@ impl PotentialEnergy {
         Self::with_split(system, Split::of_mesh(system.side, nodes))
     }
 
+    /// Nodes a side of the mesh that [`PotentialEnergy::new`] takes, which is what takes memory; 0 if it takes none.
+    #[must_use]
+    pub fn mesh_nodes(system: &System) -> usize {
+        let attracting = system.capillary_strength != 0.0;
+        if attracting { Split::fastest(system.side, system.particles).nodes } else { 0 }
+    }
+
     fn with_split(system: &System, split: Split) -> Self {
         let attracting = system.capillary_strength != 0.0;
         Self {

@@ -30,6 +30,9 @@ pub const WAVES_PER_SHELL: usize = 100;
 /// Number of shells that are looked at: all up to half of it, beyond that in geometric progression.
 pub const SHELLS_KEPT: u32 = 512;
 
+/// Largest wavenumber of a run's table, R0⁻¹: beyond the peak for discs in contact, near 2π/2.2 R0.
+pub const LARGEST_WAVENUMBER: f64 = 4.0;
+
 /// Number of shells beyond which a largest wavenumber is refused.
 pub const MOST_SHELLS: u32 = 1 << 16;
 

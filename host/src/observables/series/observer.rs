@@ -10,7 +10,9 @@ use crate::observables::minkowski::{by_contours, by_pixels};
 use crate::observables::modes::Modes;
 use crate::observables::radial_distribution::{RadialDistribution, RadialDistributionError};
 use crate::observables::radii::{Groups, GroupsError};
-use crate::observables::structure_factor::{StructureFactor, StructureFactorError, WAVES_PER_SHELL};
+use crate::observables::structure_factor::{
+    LARGEST_WAVENUMBER, StructureFactor, StructureFactorError, WAVES_PER_SHELL,
+};
 use meniscus_core::torus::{Position, Torus};
 use thiserror::Error;
 
@@ -18,8 +20,6 @@ use thiserror::Error;
 const LARGEST_DISTANCE: f64 = 20.0;
 /// Width of the bins of g(r), R0.
 const BIN_WIDTH: f64 = 0.1;
-/// S(k) goes up to this wavenumber, R0⁻¹: beyond its peak for discs in contact, near 2π/2.2 R0.
-const LARGEST_WAVENUMBER: f64 = 4.0;
 
 /// Why a series cannot be made.
 #[derive(Debug, Error)]
