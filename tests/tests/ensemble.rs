@@ -6,7 +6,8 @@
 use meniscus::configuration::Configuration;
 use meniscus::engine::Machinery;
 use meniscus::ensemble::{
-    Fate, Member, MemberError, Nobody, Observer, Report, Request, Selection, Standing, Sweep, gather, run,
+    Fate, Member, MemberError, Nobody, Observer, Report, Request, Selection, Standing, Sweep, gather,
+    gather_sweep, run,
 };
 use meniscus::files::table::Table;
 use meniscus::observables::series::Series;
@@ -471,7 +472,22 @@ fn damaged_members_are_told_and_not_gathered() {
     gathered("observables.csv: line 13: found a second row of bin 10, expected one");
     fs::write(&table, format!("{text}torn")).unwrap();
     gathered("observables.csv: line 13: found 1 cells, expected 11");
-    fs::write(&table, &text).unwrap();
+    fs::remove_file(&table).unwrap();
+    gathered("observables.csv: cannot be read: No such file or directory");
+    let remedy = "this table of a finished run is gone, cut or changed; remove";
+    gathered(&format!("{remedy} {} and run the ensemble again, it repeats that run", run_of(0).display()));
+    fs::remove_dir_all(run_of(0)).unwrap();
+    assert_eq!(
+        run_all(&sweep, &directory, Selection::All, 2).count(|fate| matches!(fate, Fate::Finished)),
+        1
+    );
+    assert_eq!(fs::read_to_string(&table).unwrap(), text);
+    assert_eq!(gather(&directory).unwrap().finished, 6);
+
+    let members = fs::read(directory.join("members.csv")).unwrap();
+    let stopped = gather_sweep(&sweep, &directory, &AtomicBool::new(true)).unwrap_err().to_string();
+    assert!(stopped.starts_with("interrupted: the gathered tables in "), "{stopped}");
+    assert_eq!(fs::read(directory.join("members.csv")).unwrap(), members);
 
     fs::write(run_of(1).join("final.state"), "nothing").unwrap();
     let configuration = fs::read_to_string(run_of(2).join("config.toml")).unwrap();

@@ -241,7 +241,10 @@ fn a_file_without_its_run_says_what_it_needs() {
     let other = ["analyze", "alone-trajectory.gsd", "--configuration", "fig-12"];
     program.refuse(&[&other[..], &["--box", "48"]].concat(), &["box is 48", "800", "--configuration"]);
     program.refuse(&["analyze", "run/trajectory.gsd", "--spacing", "-1"], &["minkowski", "-1"]);
-    program.refuse(&["analyze", "run", "--out", "run"], &["run/observables.csv", "exist"]);
+    program.refuse(
+        &["analyze", "run", "--out", "run"],
+        &["run/observables.csv: this file exists: name another directory by --out, or remove it"],
+    );
     assert!(!program.folder().join("run/trajectory-analysis").exists(), "a refusal leaves nothing");
 
     run(&program, &["disc.toml", "--out", "unfilmed", "--set", "output.trajectory=0"]);

@@ -1,7 +1,7 @@
 //! `meniscus analyze TRAJECTORY|DIR [--series NAME,…] [--out DIR] …`
 
 use super::progress::FrameProgress;
-use super::run::stop_signal;
+use super::stop::StopSignal;
 use super::{CommandError, Reporter, Verdict};
 use crate::configuration::{Configuration, Start};
 use crate::files::atomic::AtomicFile;
@@ -11,9 +11,7 @@ use crate::observables::series::{Grouping, Moment, Observer, Series, SeriesError
 use crate::start::{StartError, settle_strengths};
 use clap::builder::PossibleValuesParser;
 use meniscus_core::torus::Torus;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
@@ -47,7 +45,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
-    let stop = stop_signal()?;
+    let stop = StopSignal::catch()?;
     let (path, configuration) = arguments.source()?;
     let given = arguments.torus(&path, configuration.as_ref())?;
     let mut reader = TrajectoryReader::open(&path, given.as_ref())?;
@@ -79,9 +77,9 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         }
         frames += 1;
         progress.show(frames, reporter);
-        if stop.load(Ordering::Relaxed) {
+        if stop.is_raised() {
             progress.finish();
-            return Err(CommandError::Interrupted { directory });
+            return Err(CommandError::Interrupted { path: directory });
         }
         next = reader.read_frame()?;
     }
@@ -247,8 +245,7 @@ impl Tables {
         for series in series {
             let path = directory.join(series.file_name());
             if path.exists() {
-                let problem = ErrorKind::AlreadyExists.into();
-                return Err(FileError::Write { path, problem }.into());
+                return Err(CommandError::Exists { path, another: "another directory by --out" });
             }
             let mut file = AtomicFile::create(&path)?;
             file.append(&format!("{}\n", series.header()))?;

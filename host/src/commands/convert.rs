@@ -1,12 +1,12 @@
 //! `meniscus convert A B [--box L] [--frame K]`
 
+use super::stop::StopSignal;
 use super::{CommandError, Reporter, Verdict};
 use crate::configuration::Configuration;
 use crate::files::trajectory::{Format, Recorded, Trajectory, TrajectoryReader};
 use crate::files::{FileError, FormatError, csv};
 use crate::observables::clusters::Clusters;
 use meniscus_core::torus::Torus;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Discs in the frames that are held in memory, roughly: an archive is written anew for so many at a time.
@@ -32,8 +32,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let Arguments { from, to, side, frame } = arguments;
     let target = Target::of_path(to)?;
     if to.exists() {
-        let problem = ErrorKind::AlreadyExists.into();
-        return Err(FileError::Write { path: to.clone(), problem }.into());
+        return Err(CommandError::Exists { path: to.clone(), another: "another file" });
     }
     let torus = box_given(from, *side)?;
     let mut frames =
@@ -126,14 +125,19 @@ impl Frames<'_> {
 }
 
 /// Writes the frames to a new file; how many.
-fn write_trajectory(frames: &mut Frames<'_>, to: &Path, format: Format) -> Result<u64, FileError> {
+fn write_trajectory(frames: &mut Frames<'_>, to: &Path, format: Format) -> Result<u64, CommandError> {
     let next = frames.next()?;
     if next.is_none() {
-        return Err(frames.missing());
+        return Err(frames.missing().into());
     }
     let torus = frames.torus()?;
+    let stop = StopSignal::catch()?;
     let trajectory = Trajectory::create(to, format, &torus)?;
-    let written = append_frames(frames, next, &torus, trajectory);
+    let written = match append_frames(frames, next, &torus, trajectory, &stop) {
+        Ok(Some(written)) => Ok(written),
+        Ok(None) => Err(CommandError::Interrupted { path: to.to_owned() }),
+        Err(error) => Err(error.into()),
+    };
     if written.is_err() {
         // Half a trajectory is of no use, and there is nothing to be done if it cannot be removed.
         let _ = std::fs::remove_file(to);
@@ -141,12 +145,14 @@ fn write_trajectory(frames: &mut Frames<'_>, to: &Path, format: Format) -> Resul
     written
 }
 
+/// How many frames there are when all are on the disk; None if somebody stopped it.
 fn append_frames(
     frames: &mut Frames<'_>,
     mut next: Option<Recorded>,
     torus: &Torus,
     mut trajectory: Trajectory,
-) -> Result<u64, FileError> {
+    stop: &StopSignal,
+) -> Result<Option<u64>, FileError> {
     while next.is_some() {
         let (mut batch, mut discs) = (Vec::new(), 0);
         while discs < DISCS_AT_A_TIME
@@ -155,10 +161,13 @@ fn append_frames(
             discs += frame.state.positions.len().max(1);
             let clusters = Clusters::find(torus, &frame.state.positions);
             batch.push((frame, clusters));
+            if stop.is_raised() {
+                return Ok(None);
+            }
             next = frames.next()?;
         }
         let batch: Vec<_> = batch.iter().map(|(frame, clusters)| frame.frame(Some(clusters))).collect();
         trajectory.append_all(&batch)?;
     }
-    Ok(trajectory.sync()?.frames)
+    Ok(Some(trajectory.sync()?.frames))
 }

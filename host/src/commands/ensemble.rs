@@ -2,10 +2,11 @@
 
 use super::machinery::{MOST_THREADS, processors};
 use super::members::Members;
-use super::run::{WallTime, quoted, stop_signal};
+use super::run::{WallTime, quoted};
+use super::stop::StopSignal;
 use super::{CommandError, Reporter, Verdict};
 use crate::ensemble::{
-    Fate, Gathered, MemberError, Report, Request, Selection, Sweep, gather, gather_sweep, run as run_members,
+    Fate, Gathered, MemberError, Report, Request, Selection, Sweep, gather_sweep, run as run_members,
 };
 use std::path::{Path, PathBuf};
 
@@ -48,7 +49,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let deadline = arguments.wall_time.deadline();
     let path = match (&arguments.instead, &arguments.sweep) {
         (Some(Instead::Gather { directory }), _) => {
-            let gathered = gather(directory)?;
+            let gathered = gather_sweep(&Sweep::of(directory)?, directory, StopSignal::catch()?.flag())?;
             return conclude(directory, gathered, &Report::default(), reporter);
         }
         (None, sweep) => sweep.clone().unwrap_or_default(),
@@ -66,13 +67,18 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         sweep.members().len(),
         directory.display()
     ));
-    let stop = stop_signal()?;
+    let stop = StopSignal::catch()?;
     let members = Members::new(count, reporter);
-    let request = Request { selection, workers, deadline, stop: &stop };
+    let request = Request { selection, workers, deadline, stop: stop.flag() };
     let report = run_members(&sweep, &directory, &request, &members);
     members.finish();
     let report = report?;
-    let gathered = gather_sweep(&sweep, &directory)?;
+    // From here on Ctrl-C leaves the tables as they are.
+    if stop.take() {
+        reporter
+            .note("stopped: gathering the tables of what has finished; Ctrl-C again leaves them as they are");
+    }
+    let gathered = gather_sweep(&sweep, &directory, stop.flag())?;
     let unfinished = report.count(|fate| matches!(fate, Fate::Stopped(_) | Fate::Waiting));
     if unfinished > 0 {
         let share = match selection {
@@ -82,7 +88,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         };
         let [path, directory] = [&path, &directory].map(|path| quoted(&path.display().to_string()));
         reporter.note(&format!(
-            "stopped, {unfinished} members are left; to go on: meniscus ensemble {path} --out {directory}{share}"
+            "members left: {unfinished}; to go on: meniscus ensemble {path} --out {directory}{share}"
         ));
     }
     let elsewhere = report.count(|fate| matches!(fate, Fate::Elsewhere));

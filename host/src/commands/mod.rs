@@ -5,6 +5,7 @@
 mod analyze;
 mod convert;
 mod digest;
+mod drawing;
 mod ensemble;
 mod forces;
 mod machinery;
@@ -16,6 +17,7 @@ mod reporter;
 mod reproduce;
 mod resume;
 mod run;
+mod stop;
 mod verify;
 
 use crate::configuration::{Configuration, ConfigurationError};
@@ -135,8 +137,20 @@ enum CommandError {
         path.display()
     )]
     OtherSystem { path: PathBuf, key: &'static str, found: f64, configured: f64 },
-    #[error("interrupted: nothing was written to {}", directory.display())]
-    Interrupted { directory: PathBuf },
+    #[error("{}: this is a file: name the directory that it is in", .0.display())]
+    OneTable(PathBuf),
+    #[error("{}: this directory holds no tables itself; name one in it that does: {names}", directory.display())]
+    TablesInside { directory: PathBuf, names: String },
+    #[error("{}: this file exists: name {another}, or remove it", path.display())]
+    Exists { path: PathBuf, another: &'static str },
+    #[error("interrupted: nothing was written to {}", path.display())]
+    Interrupted { path: PathBuf },
+    #[error(
+        "interrupted: the report and the figures in {} are as they were; the same command goes on, with --out {}",
+        .0.display(),
+        run::quoted(&.0.display().to_string())
+    )]
+    NoReport(PathBuf),
     #[error("Ctrl-C cannot be caught: {0}")]
     Signal(std::io::Error),
     #[error("{}: there is no final.state in this directory; name a run's directory or a file", .0.display())]

@@ -1,8 +1,10 @@
 //! `meniscus reproduce [FIGURE]…`
 
+use super::drawing::{Drawing, Reason};
 use super::machinery::{MOST_THREADS, processors};
 use super::members::Members;
-use super::run::{WallTime, quoted, stop_signal};
+use super::run::{WallTime, quoted};
+use super::stop::StopSignal;
 use super::{CommandError, Reporter, Verdict};
 use crate::ensemble::{Fate, MemberError};
 use crate::reproduce::campaign::Size;
@@ -10,10 +12,9 @@ use crate::reproduce::catalogue::{CATALOGUE, Entry, entry};
 use crate::reproduce::evidence::sweep;
 use crate::reproduce::finding::Verdict as Found;
 use crate::reproduce::report::Report;
-use crate::reproduce::{HTML, MARKDOWN, Machinery, advance, report_on, rounds, write};
+use crate::reproduce::{HTML, MARKDOWN, Machinery, advance, rounds};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// How often the report is written while runs are made, at most.
@@ -50,18 +51,20 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let deadline = arguments.wall_time.deadline();
     let size = if arguments.quick { Size::Quick } else { Size::Full };
-    let entries: Vec<&Entry> = if arguments.figures.contains(&ALL) {
+    let entries: Vec<&'static Entry> = if arguments.figures.contains(&ALL) {
         CATALOGUE.iter().collect()
     } else {
         CATALOGUE.iter().filter(|entry| arguments.figures.contains(&entry.name)).collect()
     };
     let directory = arguments.out.clone().unwrap_or_else(|| default_directory(size));
     let workers = arguments.workers.map_or_else(processors, usize::from);
-    let stop = stop_signal()?;
-    let machinery = Machinery { workers, deadline, stop: &stop };
+    let stop = StopSignal::catch()?;
+    let machinery = Machinery { workers, deadline, stop: stop.flag() };
     let rounds = if arguments.draw_only { Vec::new() } else { rounds(&entries, size, arguments.seeds) };
     let mut failures: Vec<(String, usize, String)> = Vec::new();
-    let mut unfinished = 0;
+    let mut reason = Reason::End;
+    let drawing = Drawing { entries, directory: directory.clone(), size, seeds: arguments.seeds };
+    let mut last = None;
     // By campaigns: a later turn of one sees the runs of the earlier again.
     let mut elsewhere = BTreeMap::new();
     let (mut written, mut took) = (Instant::now(), Duration::ZERO);
@@ -77,22 +80,33 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         let outcome = advance(*round, &directory, size, machinery, &members);
         members.finish();
         let outcome = outcome?;
-        let reason = |error: &MemberError| error.to_string().replace('\n', " ");
-        failures.extend(outcome.failures().map(|(index, error)| (name.to_owned(), index, reason(error))));
-        unfinished = outcome.count(|fate| matches!(fate, Fate::Stopped(_) | Fate::Waiting));
+        let said = |error: &MemberError| error.to_string().replace('\n', " ");
+        failures.extend(outcome.failures().map(|(index, error)| (name.to_owned(), index, said(error))));
+        let unfinished = outcome.count(|fate| matches!(fate, Fate::Stopped(_) | Fate::Waiting));
         elsewhere.insert(name, outcome.count(|fate| matches!(fate, Fate::Elsewhere)));
-        if unfinished > 0 || stop.load(Ordering::Relaxed) {
+        if stop.take() {
+            reason = Reason::Stopped;
             break;
         }
-        if written.elapsed() >= REPORT_INTERVAL.max(RUNS_PER_REPORT * took) {
+        if unfinished > 0 {
+            reason = Reason::WallTime;
+            break;
+        }
+        if number + 1 < rounds.len() && written.elapsed() >= REPORT_INTERVAL.max(RUNS_PER_REPORT * took) {
             let begun = Instant::now();
-            write(&report_on(&entries, &directory, size, arguments.seeds)?, &directory)?;
+            let (report, told) = drawing.draw(Reason::Time, &stop, reporter)?;
             (written, took) = (Instant::now(), begun.elapsed());
+            if told == Reason::Stopped {
+                (reason, last) = (told, Some(report));
+                break;
+            }
         }
     }
-    let report = report_on(&entries, &directory, size, arguments.seeds)?;
-    write(&report, &directory)?;
-    if unfinished > 0 {
+    let report = match last {
+        Some(report) => report,
+        None => drawing.draw(reason, &stop, reporter)?.0,
+    };
+    if matches!(reason, Reason::Stopped | Reason::WallTime) {
         let directory = quoted(&directory.display().to_string());
         reporter.note(&format!("stopped; the same command goes on, with --out {directory}"));
     }

@@ -2,6 +2,7 @@
 
 use super::machinery::MachineryArguments;
 use super::run::{WallTime, announce, conclude, go};
+use super::stop::StopSignal;
 use super::{CommandError, Reporter, Verdict};
 use crate::run::{Resumed, Run};
 use std::path::PathBuf;
@@ -28,7 +29,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
             let simulation = run.simulation();
             announce(simulation, &arguments.directory, reporter);
             reporter.note(&format!("goes on after step {}", simulation.engine.clock().step));
-            go(run.until(deadline), reporter)
+            go(run.until(deadline), &StopSignal::catch()?, reporter)
         }
         Resumed::Finished(outcome) => {
             reporter.note("this run has finished; to go further: --until T");

@@ -2,6 +2,7 @@
 
 use super::machinery::MachineryArguments;
 use super::progress::Progress;
+use super::stop::StopSignal;
 use super::{CommandError, Reporter, Source, Verdict};
 use crate::configuration::Start;
 use crate::run::{GOLDEN_INTERVAL, GoldenRequest, Outcome, Run, Stop};
@@ -9,10 +10,7 @@ use crate::simulation::Simulation;
 use crate::start::overlap_line;
 use crate::strengths::{Strengths, all_one};
 use meniscus_core::units::time_from_units;
-use signal_hook::consts::{SIGINT, SIGTERM};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 #[derive(Debug, clap::Args)]
@@ -70,19 +68,21 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     };
     let simulation = Simulation::with_machinery(configuration, arguments.machinery.read()?)?;
     announce(&simulation, &directory, reporter);
+    // A run that is stopped before its first step has a checkpoint too.
+    let stop = StopSignal::catch()?;
     let run = Run::create(simulation, &directory, golden)?.until(deadline);
-    go(run, reporter)
+    go(run, &stop, reporter)
 }
 
-/// Runs to the end, or until somebody stops it, and tells how it ended.
-pub(super) fn go(run: Run, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
-    let watch = stop_signal()?;
+/// Runs to the end, or until somebody stops it, and tells how it ended. Whoever stops it twice has the checkpoint
+/// nevertheless.
+pub(super) fn go(run: Run, stop: &StopSignal, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let first_step = run.simulation().engine.clock().step;
     let mut progress = Progress::new(run.simulation(), reporter);
     let begun = Instant::now();
     let outcome = run.to_end(|simulation| {
         progress.show(simulation, reporter);
-        watch.load(Ordering::Relaxed).then_some(Stop::Interrupted)
+        stop.is_raised().then_some(Stop::Interrupted)
     });
     progress.finish();
     let outcome = outcome?;
@@ -162,15 +162,6 @@ pub(super) fn conclude(outcome: &Outcome, reporter: &mut Reporter<'_>) -> std::i
             "digest": digest.to_string(),
         })
     })
-}
-
-/// A flag that Ctrl-C and a request to terminate raise.
-pub(super) fn stop_signal() -> Result<Arc<AtomicBool>, CommandError> {
-    let raised = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        signal_hook::flag::register(signal, Arc::clone(&raised)).map_err(CommandError::Signal)?;
-    }
-    Ok(raised)
 }
 
 /// A word as a shell reads it back.

@@ -1,7 +1,7 @@
 //! Why an ensemble, or a member of it, could not be run or gathered. Every message is one line.
 
 use crate::configuration::{ConfigurationError, Place};
-use crate::files::FileError;
+use crate::files::{FileError, FormatError};
 use crate::run::RunError;
 use crate::simulation::SimulationError;
 use std::path::PathBuf;
@@ -40,27 +40,27 @@ pub enum EnsembleError {
     /// A directory is not that of an ensemble.
     #[error("{}: found no sweep.toml, expected the directory of an ensemble: name the one that `meniscus ensemble` wrote", .0.display())]
     NoSweep(PathBuf),
-    /// A file or directory could not be made.
-    #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// Which one.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// A file could not be read or written.
+    /// A file or directory could not be read, made or written.
     #[error(transparent)]
     File(#[from] FileError),
     /// A table of a finished run does not hold all of it.
-    #[error("{}: found {found}, expected {expected}: the table was cut or changed; remove that run's directory, and it is run anew", path.display())]
+    #[error(
+        "{}: {problem}: this table of a finished run is gone, cut or changed; remove {} and run the ensemble again, it \
+         repeats that run",
+        path.display(),
+        run.display()
+    )]
     Table {
         /// The table.
         path: PathBuf,
-        /// What was found.
-        found: String,
-        /// What there should be.
-        expected: String,
+        /// What is wrong with it.
+        problem: FormatError,
+        /// The run's directory.
+        run: PathBuf,
     },
+    /// Gathering was stopped.
+    #[error("interrupted: the gathered tables in {} are as they were; `meniscus ensemble gather` makes them", .0.display())]
+    Interrupted(PathBuf),
     /// Several threads were at work and one has not said how it ended.
     #[error("a thread of the ensemble broke off; run the same command again, it goes on")]
     Thread,

@@ -6,13 +6,15 @@
 //! `x_error`, mean and standard error of the mean over the runs in which there is a value, empty for no run, the error for
 //! one. Rows are in the order of the sweep, then of bins, then of the columns that tell rows apart. Numbers are summed in
 //! the order of seeds.
+//!
+//! All tables are made before the first is written: what refuses one, or stops, leaves those that were there.
 
+use super::MEMBERS;
 use super::bins::Bins;
 use super::error::{EnsembleError, MemberError};
 use super::member::{Member, Setting};
 use super::standing::{Finished, Standing};
 use super::sweep::Sweep;
-use super::{MEMBERS, SWEEP};
 use crate::configuration::{Configuration, Start};
 use crate::files::atomic::write_atomically;
 use crate::files::table::{Table, TableText};
@@ -23,6 +25,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering as Memory};
 
 /// Name of the file that is locked while tables are gathered. It is empty, and stays.
 const LOCK: &str = "lock";
@@ -44,41 +47,39 @@ pub struct Gathered {
 /// left out.
 ///
 /// # Errors
-/// [`EnsembleError`]; if a finished member's table is cut, or has other columns than the others, nothing is written for
-/// its kind of tables.
+/// [`EnsembleError`]; if a finished member's table is gone, cut or changed, nothing is written.
 pub fn gather(directory: &Path) -> Result<Gathered, EnsembleError> {
-    let path = directory.join(SWEEP);
-    if !path.exists() {
-        return Err(EnsembleError::NoSweep(directory.to_owned()));
-    }
-    gather_sweep(&Sweep::read(&path)?, directory)
+    gather_sweep(&Sweep::of(directory)?, directory, &AtomicBool::new(false))
 }
 
-/// Gathers the tables of the members of `sweep` in `directory`.
+/// Gathers the tables of the members of `sweep` in `directory`, unless `stop` is raised before all are made.
 ///
 /// # Errors
-/// As [`gather`].
-pub fn gather_sweep(sweep: &Sweep, directory: &Path) -> Result<Gathered, EnsembleError> {
+/// As [`gather`], and [`EnsembleError::Interrupted`].
+pub fn gather_sweep(sweep: &Sweep, directory: &Path, stop: &AtomicBool) -> Result<Gathered, EnsembleError> {
     // Of two that gather at a time, the later sees what the earlier saw.
     let lock = directory.join(LOCK);
     let file = File::options().create(true).append(true).open(&lock);
-    let file = file.map_err(|source| EnsembleError::Write { path: lock, source })?;
+    let file = file.map_err(|problem| FileError::Write { path: lock, problem })?;
     // A file system without locks must not keep anybody from gathering.
     let _ = file.lock();
 
     let standings: Vec<_> = sweep.members().iter().map(|member| Standing::of(member, directory)).collect();
-    let mut tables = vec![directory.join(MEMBERS)];
-    write_atomically(&directory.join(MEMBERS), &members_table(sweep, &standings))?;
+    let mut texts = vec![(directory.join(MEMBERS), Some(members_table(sweep, &standings)))];
     for series in Series::ALL {
-        let path = directory.join(series.file_name());
-        match series_table(series, sweep, &standings, directory)? {
+        let text = series_table(series, sweep, &standings, directory, stop)?;
+        texts.push((directory.join(series.file_name()), text));
+    }
+    let mut tables = Vec::new();
+    for (path, text) in texts {
+        match text {
             Some(text) => {
                 write_atomically(&path, &text)?;
                 tables.push(path);
             }
             // Of another sweep, perhaps.
             None if path.exists() => {
-                fs::remove_file(&path).map_err(|source| EnsembleError::Write { path, source })?;
+                fs::remove_file(&path).map_err(|problem| FileError::Write { path, problem })?;
             }
             None => {}
         }
@@ -115,6 +116,7 @@ fn series_table(
     sweep: &Sweep,
     standings: &[Result<Standing, MemberError>],
     directory: &Path,
+    stop: &AtomicBool,
 ) -> Result<Option<Vec<u8>>, EnsembleError> {
     let mut text: Option<TableText> = None;
     for combination in sweep.combinations() {
@@ -126,12 +128,19 @@ fn series_table(
             let Some(bins) = Bins::of(series, &member.configuration.output, finished.time_unit) else {
                 continue;
             };
-            let path = member.directory(directory).join(series.file_name());
-            let table = Table::read(&path)?;
-            refuse_columns(series, &table, &path)?;
+            if stop.load(Memory::Relaxed) {
+                return Err(EnsembleError::Interrupted(directory.to_owned()));
+            }
             text.get_or_insert_with(|| TableText::new(header(series, sweep)));
-            refuse_cut(&table, bins, finished, &member.configuration, &path)?;
-            groups.add(&table, series, bins, member).map_err(|problem| FileError::Read { path, problem })?;
+            let run = member.directory(directory);
+            let path = run.join(series.file_name());
+            let mut add = || {
+                let table = Table::parse(File::open(&path).map_err(FormatError::Input)?)?;
+                refuse_columns(series, &table)?;
+                refuse_cut(&table, bins, finished, &member.configuration)?;
+                groups.add(&table, series, bins, member)
+            };
+            add().map_err(|problem| EnsembleError::Table { path: path.clone(), problem, run })?;
         }
         if let (Some(text), Some(member)) = (&mut text, combination.first()) {
             groups.write(&member.settings, text);
@@ -152,13 +161,13 @@ fn header(series: Series, sweep: &Sweep) -> Vec<String> {
 }
 
 /// Refuses a table whose columns are not those of the series.
-fn refuse_columns(series: Series, table: &Table, path: &Path) -> Result<(), EnsembleError> {
+fn refuse_columns(series: Series, table: &Table) -> Result<(), FormatError> {
     let [expected, found] = [series.header(), table.columns().collect::<Vec<_>>().join(",")];
     if found == expected {
         return Ok(());
     }
     let [found, expected] = [found, expected].map(|columns| format!("columns {columns}"));
-    Err(EnsembleError::Table { path: path.to_owned(), found, expected })
+    Err(FormatError::Whole { found, expected })
 }
 
 /// Refuses a table of a finished run that lacks its last rows.
@@ -167,17 +176,14 @@ fn refuse_cut(
     bins: Bins,
     finished: &Finished,
     configuration: &Configuration,
-    path: &Path,
-) -> Result<(), EnsembleError> {
+) -> Result<(), FormatError> {
     let expected = bins.last_due(finished.time);
     let last = table.len().checked_sub(1).map(|row| time(table, row));
-    let found = last.transpose().map_err(|problem| FileError::Read { path: path.to_owned(), problem })?;
-    match found.map(|time| bins.last_due(time)) {
+    match last.transpose()?.map(|time| bins.last_due(time)) {
         Some(found) if found == expected => Ok(()),
         // A run that goes on from a file may have ended before anything was due.
         None if matches!(configuration.start, Start::File { .. }) => Ok(()),
-        found => Err(EnsembleError::Table {
-            path: path.to_owned(),
+        found => Err(FormatError::Whole {
             found: found.map_or("no row".to_owned(), |found| format!("a last row of bin {found}")),
             expected: format!("one of bin {expected}"),
         }),

@@ -1,5 +1,6 @@
 //! A sweep: which configurations an ensemble has, seeds times every combination of values.
 
+use super::SWEEP;
 use super::error::EnsembleError;
 use super::member::{Member, Setting, describe, hash};
 use super::read::{self, Axis, Base, Given};
@@ -43,6 +44,15 @@ impl Sweep {
         let given = read::read(name, text, folder)?;
         let members = members(&given)?;
         Ok(Self { given, members })
+    }
+
+    /// The sweep of the ensemble in `directory`.
+    ///
+    /// # Errors
+    /// [`EnsembleError::NoSweep`], otherwise as [`Sweep::read`].
+    pub fn of(directory: &Path) -> Result<Self, EnsembleError> {
+        let path = directory.join(SWEEP);
+        if path.exists() { Self::read(&path) } else { Err(EnsembleError::NoSweep(directory.to_owned())) }
     }
 
     /// All members in the order of their numbers: seeds count fastest, then the last swept key.

@@ -38,7 +38,7 @@ use catalogue::Entry;
 use evidence::{Evidence, sweep};
 use report::{CampaignRecord, Report, RunRecord, Section};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -101,7 +101,7 @@ pub struct Machinery<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// Runs a round below `directory`, as far as nobody stops it, and gathers its tables.
+/// Runs a round below `directory`, as far as nobody stops it, and gathers its tables, which nobody stops.
 ///
 /// # Errors
 /// [`ReproduceError::Ensemble`]; what became of the runs is in the report.
@@ -117,7 +117,7 @@ pub fn advance(
     let ensemble = directory.join(round.campaign.name());
     let request = ensemble::Request { selection: Selection::All, workers, deadline, stop };
     let report = ensemble::run(&sweep, &ensemble, &request, observer)?;
-    gather_sweep(&sweep, &ensemble)?;
+    gather_sweep(&sweep, &ensemble, &AtomicBool::new(false))?;
     Ok(report)
 }
 
@@ -131,12 +131,35 @@ pub fn report_on(
     size: Size,
     seeds: Option<u32>,
 ) -> Result<Report, ReproduceError> {
+    report_of(entries, &evidence(entries, directory, size, seeds)?, seeds)
+}
+
+/// What has finished below `directory` of the runs that `entries` take.
+///
+/// # Errors
+/// [`ReproduceError`].
+pub fn evidence(
+    entries: &[&Entry],
+    directory: &Path,
+    size: Size,
+    seeds: Option<u32>,
+) -> Result<Evidence, ReproduceError> {
     fs::create_dir_all(directory)
         .map_err(|source| ReproduceError::Directory { path: directory.to_owned(), source })?;
-    let campaigns = campaigns(entries);
-    let evidence = Evidence::collect(directory, size, seeds, &campaigns)?;
+    Evidence::collect(directory, size, seeds, &campaigns(entries))
+}
+
+/// The report on `entries` by what is there, which was looked for with the same `seeds`.
+///
+/// # Errors
+/// [`ReproduceError`].
+pub fn report_of(
+    entries: &[&Entry],
+    evidence: &Evidence,
+    seeds: Option<u32>,
+) -> Result<Report, ReproduceError> {
     let section = |entry: &&Entry| -> Result<Section, ReproduceError> {
-        let built = (entry.build)(&evidence)?;
+        let built = (entry.build)(evidence)?;
         let count =
             |of: &dyn Fn(Campaign) -> usize| entry.campaigns.iter().map(|&campaign| of(campaign)).sum();
         Ok(Section {
@@ -151,8 +174,9 @@ pub fn report_on(
         })
     };
     let sections = entries.iter().map(section).collect::<Result<_, _>>()?;
-    let record = |&campaign: &Campaign| record(campaign, &evidence, seeds);
-    Ok(Report { size, sections, campaigns: campaigns.iter().map(record).collect() })
+    let record = |&campaign: &Campaign| record(campaign, evidence, seeds);
+    let campaigns = campaigns(entries).iter().map(record).collect();
+    Ok(Report { size: evidence.size, sections, campaigns })
 }
 
 /// The runs of a campaign and how they are repeated.
@@ -177,21 +201,34 @@ fn record(campaign: Campaign, evidence: &Evidence, seeds: Option<u32>) -> Campai
     }
 }
 
-/// Writes a report and its figures to `directory`.
+/// A file of a report: its path below the directory, and what is in it.
+pub type ReportFile = (PathBuf, Vec<u8>);
+
+/// The files of a report, figures first. Nothing is written.
 ///
 /// # Errors
-/// [`ReproduceError::Directory`], [`ReproduceError::Figure`], [`ReproduceError::File`].
-pub fn write(report: &Report, directory: &Path) -> Result<(), ReproduceError> {
+/// [`ReproduceError::Figure`].
+pub fn files(report: &Report) -> Result<Vec<ReportFile>, ReproduceError> {
+    let mut files = Vec::new();
+    for picture in report.sections.iter().flat_map(|section| &section.pictures) {
+        let path = |ending: &str| Path::new(FIGURES).join(format!("{}.{ending}", picture.stem));
+        files.push((path("png"), crate::figures::png(&picture.svg)?));
+        files.push((path("svg"), picture.svg.clone().into_bytes()));
+    }
+    files.push((MARKDOWN.into(), report.markdown().into_bytes()));
+    files.push((HTML.into(), report.html().into_bytes()));
+    Ok(files)
+}
+
+/// Writes the files of a report to `directory`.
+///
+/// # Errors
+/// [`ReproduceError::Directory`], [`ReproduceError::File`].
+pub fn write(files: &[ReportFile], directory: &Path) -> Result<(), ReproduceError> {
     let figures = directory.join(FIGURES);
     fs::create_dir_all(&figures)
         .map_err(|source| ReproduceError::Directory { path: figures.clone(), source })?;
-    for picture in report.sections.iter().flat_map(|section| &section.pictures) {
-        write_atomically(&figures.join(format!("{}.svg", picture.stem)), picture.svg.as_bytes())?;
-        let png = crate::figures::png(&picture.svg)?;
-        write_atomically(&figures.join(format!("{}.png", picture.stem)), &png)?;
-    }
-    write_atomically(&directory.join(MARKDOWN), report.markdown().as_bytes())?;
-    Ok(write_atomically(&directory.join(HTML), report.html().as_bytes())?)
+    Ok(files.iter().try_for_each(|(path, bytes)| write_atomically(&directory.join(path), bytes))?)
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ fn a_report_is_written_of_what_has_finished() {
         assert!(!section.pictures.is_empty() && !section.findings.is_empty(), "{}", section.name);
     }
     let disc = of(&["fig-14"]);
-    write(&report(&disc), directory).unwrap();
+    write(&files(&report(&disc)).unwrap(), directory).unwrap();
     for name in ["figures/fig-14.svg", "figures/fig-14.png", MARKDOWN] {
         assert!(directory.join(name).metadata().unwrap().len() > 0, "{name}");
     }
