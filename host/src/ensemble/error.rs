@@ -48,15 +48,13 @@ pub enum EnsembleError {
         "{}: {problem}: this table of a finished run is gone, cut or changed; remove {} and run the ensemble again, it \
          repeats that run",
         path.display(),
-        run.display()
+        path.parent().unwrap_or(path).display()
     )]
     Table {
-        /// The table.
+        /// The table, in the run's directory.
         path: PathBuf,
         /// What is wrong with it.
         problem: FormatError,
-        /// The run's directory.
-        run: PathBuf,
     },
     /// Gathering was stopped.
     #[error("interrupted: the gathered tables in {} are as they were; `meniscus ensemble gather` makes them", .0.display())]

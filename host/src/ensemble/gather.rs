@@ -132,15 +132,14 @@ fn series_table(
                 return Err(EnsembleError::Interrupted(directory.to_owned()));
             }
             text.get_or_insert_with(|| TableText::new(header(series, sweep)));
-            let run = member.directory(directory);
-            let path = run.join(series.file_name());
+            let path = member.directory(directory).join(series.file_name());
             let mut add = || {
                 let table = Table::parse(File::open(&path).map_err(FormatError::Input)?)?;
                 refuse_columns(series, &table)?;
                 refuse_cut(&table, bins, finished, &member.configuration)?;
                 groups.add(&table, series, bins, member)
             };
-            add().map_err(|problem| EnsembleError::Table { path: path.clone(), problem, run })?;
+            add().map_err(|problem| EnsembleError::Table { path: path.clone(), problem })?;
         }
         if let (Some(text), Some(member)) = (&mut text, combination.first()) {
             groups.write(&member.settings, text);
