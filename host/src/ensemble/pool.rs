@@ -246,7 +246,7 @@ mod tests {
     #[test]
     fn as_many_members_are_at_work_as_fit() {
         let text = "version = 1\npreset = \"fig-5\"\nset = [\"force.method=pm\", \"mesh.grid=64\"]\nseeds = 2\n\
-                    [sweep]\n\"system.particles\" = [2500, 40000]\n";
+                    [sweep]\n\"system.particles\" = [2500, 30000]\n";
         let sweep = Sweep::from_text("sizes", text, Path::new("")).unwrap();
         let members: Vec<&Member> = sweep.members().iter().collect();
         let needed = |index: usize| memory::estimate(&members[index].configuration);
