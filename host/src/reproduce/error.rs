@@ -30,10 +30,14 @@ pub enum ReproduceError {
     /// A figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// A table of a run lacks something.
-    #[error("{}: {problem}: remove that run's directory, and it is run anew", path.display())]
+    /// A table or the trajectory of a finished run is gone or lacks something.
+    #[error(
+        "{}: {problem}: this file of a finished run is gone, cut or changed; remove {} and reproduce again, that run is repeated",
+        path.display(),
+        path.parent().unwrap_or(path).display()
+    )]
     Table {
-        /// The table.
+        /// The file, in the run's directory.
         path: PathBuf,
         /// What is wrong with it.
         problem: crate::files::FormatError,

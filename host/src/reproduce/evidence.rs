@@ -18,9 +18,9 @@ use super::campaign::{Campaign, Reach, Size};
 use super::statistics::{Curves, Row, Run};
 use crate::configuration::Configuration;
 use crate::ensemble::{Bins, Member, Standing, Sweep};
-use crate::files::FormatError;
 use crate::files::table::Table;
 use crate::files::trajectory::{Recorded, TrajectoryReader};
+use crate::files::{FileError, FormatError};
 use crate::observables::series::Series;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -54,9 +54,9 @@ impl FinishedRun {
     /// A table of the run.
     ///
     /// # Errors
-    /// [`ReproduceError::File`].
+    /// [`ReproduceError::Table`] if it is gone or damaged.
     pub fn table(&self, series: Series) -> Result<Table, ReproduceError> {
-        Ok(Table::read(&self.path(series))?)
+        Table::read(&self.path(series)).map_err(damaged)
     }
 
     fn path(&self, series: Series) -> PathBuf {
@@ -66,7 +66,7 @@ impl FinishedRun {
     /// Times (t/T) and values of a column of a table, in the rows in which the column `key.0` is `key.1`.
     ///
     /// # Errors
-    /// [`ReproduceError::File`], [`ReproduceError::Table`].
+    /// [`ReproduceError::Table`].
     pub fn column(
         &self,
         series: Series,
@@ -82,7 +82,7 @@ impl FinishedRun {
     /// as in gathered tables.
     ///
     /// # Errors
-    /// [`ReproduceError::File`]; [`ReproduceError::Table`], also for a second row of a bin.
+    /// [`ReproduceError::Table`], also for a second row of a bin.
     pub fn rows(
         &self,
         series: Series,
@@ -103,16 +103,24 @@ impl FinishedRun {
     /// The first frame of its trajectory at or after a time (t/T), give or take a step; None if there is none.
     ///
     /// # Errors
-    /// [`ReproduceError::File`].
+    /// [`ReproduceError::Table`] if the trajectory is gone or damaged.
     pub fn frame(&self, time_over_jeans: f64) -> Result<Option<Recorded>, ReproduceError> {
         let name = self.configuration.output.trajectory_format.file_name();
-        let mut reader = TrajectoryReader::open(&self.directory.join(name), None)?;
-        while let Some(frame) = reader.read_frame()? {
+        let mut reader = TrajectoryReader::open(&self.directory.join(name), None).map_err(damaged)?;
+        while let Some(frame) = reader.read_frame().map_err(damaged)? {
             if frame.time_over_jeans.is_some_and(|time| time >= time_over_jeans - 1e-9) {
                 return Ok(Some(frame));
             }
         }
         Ok(None)
+    }
+}
+
+/// What is wrong with a file of a finished run: it is made by running anew.
+fn damaged(error: FileError) -> ReproduceError {
+    match error {
+        FileError::Read { path, problem } => ReproduceError::Table { path, problem },
+        other => other.into(),
     }
 }
 

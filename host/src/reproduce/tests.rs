@@ -38,4 +38,13 @@ fn a_report_is_written_of_what_has_finished() {
     }
     // The same runs give the same report.
     assert_eq!(fs::read_to_string(directory.join(HTML)).unwrap(), report(&disc).html());
+    // A table that is gone is named, with what to do.
+    let evidence = evidence(&disc, directory, Size::Tiny, None).unwrap();
+    let run = evidence.of(Campaign::Disc)[0].directory.clone();
+    fs::remove_file(run.join("radii.csv")).unwrap();
+    let message = report_on(&disc, directory, Size::Tiny, None).unwrap_err().to_string();
+    assert!(
+        message.contains("radii.csv") && message.contains(&format!("remove {}", run.display())),
+        "{message}"
+    );
 }
