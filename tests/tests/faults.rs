@@ -110,7 +110,7 @@ fn a_second_run_in_a_directory_is_refused_while_the_first_is_at_work() {
     if cfg!(target_os = "linux") {
         fs::remove_file(folder.path().join("run/lock")).unwrap();
         refuse(folder.path(), &["resume", "run"], &busy);
-        refuse(folder.path(), &run("run", &[]), &["run: "]);
+        refuse(folder.path(), &run("run", &[]), &busy);
     }
     first.kill().unwrap();
     first.wait().unwrap();

@@ -425,7 +425,7 @@ fn mistakes_in_a_conversion_are_told_in_one_line() {
     fs::write(at("junk.lammpstrj"), "ITEM: ATOMS\nITEM").unwrap();
     fs::write(at("empty.xyz"), "").unwrap();
     fs::write(at("there.xyz"), "mine").unwrap();
-    program.refuse(&["convert", "a.gsd", "there.xyz"], &["there.xyz: cannot be written"]);
+    program.refuse(&["convert", "a.gsd", "there.xyz"], &["there.xyz: this file exists: name another file"]);
     assert_eq!(fs::read(at("there.xyz")).unwrap(), b"mine");
     for (arguments, part) in [
         (&["a.gsd", "b.pdf"][..], "b.pdf: no known ending for positions: use .csv"),

@@ -1,7 +1,8 @@
 //! A report being drawn: how much it is of, and what Ctrl-C does meanwhile.
 //!
-//! It is drawn in a thread that writes no part of it. So it can be left at any moment; what is on the disk is the report
-//! that was there before, or the whole new one.
+//! It is drawn in a thread that writes no part of it; the table of force errors, which is kept beside it for the next report,
+//! goes to the disk in one piece. So it can be left at any moment: what is on the disk is the report that was there before,
+//! or the whole new one.
 
 use super::stop::StopSignal;
 use super::{CommandError, Reporter};

@@ -34,7 +34,9 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let machinery = arguments.machinery.read()?;
     let name = format!("{}: configuration", arguments.golden.display());
     let simulation = || -> Result<Simulation, CommandError> {
-        let configuration = Configuration::from_text(&name, &golden.configuration, &[])?;
+        let mut configuration = Configuration::from_text(&name, &golden.configuration, &[])?;
+        // Nothing is written, and the memory that rows would take is not asked for.
+        configuration.output = configuration.output.without_series();
         Ok(Simulation::with_machinery(configuration, machinery)?)
     };
     if let Some(step) = arguments.stages {

@@ -182,6 +182,20 @@ impl Output {
             Series::Radii => self.radii,
         }
     }
+
+    /// The same without any series: of a run that writes none.
+    #[must_use]
+    pub fn without_series(self) -> Self {
+        Self {
+            observables: 0.0,
+            minkowski: 0.0,
+            modes: 0.0,
+            radial_distribution: 0.0,
+            structure_factor: 0.0,
+            radii: 0.0,
+            ..self
+        }
+    }
 }
 
 /// Table `output`: intervals in the unit of `time.until` but for those of checkpoints; 0 for none. What the series

@@ -57,7 +57,7 @@ pub enum EnsembleError {
         problem: FormatError,
     },
     /// Gathering was stopped.
-    #[error("interrupted: the gathered tables in {} are as they were; `meniscus ensemble gather` makes them", .0.display())]
+    #[error("interrupted: the gathered tables in {} are as they were; `meniscus ensemble gather {}` makes them", .0.display(), .0.display())]
     Interrupted(PathBuf),
     /// Several threads were at work and one has not said how it ended.
     #[error("a thread of the ensemble broke off; run the same command again, it goes on")]

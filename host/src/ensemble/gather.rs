@@ -23,12 +23,16 @@ use crate::observables::series::{HEAD_COLUMNS, Series};
 use crate::statistics::Sample;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering as Memory};
+use std::time::Duration;
 
 /// Name of the file that is locked while tables are gathered. It is empty, and stays.
 const LOCK: &str = "lock";
+
+/// Time between looks at the lock.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// What was gathered.
 #[derive(Debug)]
@@ -62,7 +66,12 @@ pub fn gather_sweep(sweep: &Sweep, directory: &Path, stop: &AtomicBool) -> Resul
     let file = File::options().create(true).append(true).open(&lock);
     let file = file.map_err(|problem| FileError::Write { path: lock, problem })?;
     // A file system without locks must not keep anybody from gathering.
-    let _ = file.lock();
+    while let Err(TryLockError::WouldBlock) = file.try_lock() {
+        if stop.load(Memory::Relaxed) {
+            return Err(EnsembleError::Interrupted(directory.to_owned()));
+        }
+        std::thread::sleep(LOOK);
+    }
 
     let standings: Vec<_> = sweep.members().iter().map(|member| Standing::of(member, directory)).collect();
     let mut texts = vec![(directory.join(MEMBERS), Some(members_table(sweep, &standings)))];

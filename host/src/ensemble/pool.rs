@@ -11,10 +11,11 @@ use crate::engine::Machinery;
 use crate::files::FileError;
 use crate::memory;
 use crate::run::{GoldenRequest, Resumed, Run, RunError, Stop, clear_unbegun};
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, SimulationError};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Discs from which on a run takes all threads for itself.
@@ -115,14 +116,25 @@ pub fn run(
     let (large, small): (Vec<&Member>, Vec<&Member>) = chosen.partition(|member| is_large(member));
     let workers = request.workers.max(1);
     let available = memory::available();
-    let side_by_side = side_by_side(&small, workers, available.map(|(bytes, _)| bytes));
-    if side_by_side < workers.min(small.len()) {
+    let left: Vec<&Member> = small
+        .iter()
+        .copied()
+        .filter(|member| !matches!(Standing::of(member, directory), Ok(Standing::Finished(_))))
+        .collect();
+    let side_by_side = side_by_side(&left, workers, available.map(|(bytes, _)| bytes));
+    if side_by_side < workers.min(left.len()) {
         observer.limited(&Limited { side_by_side, workers, available });
     }
-    let work = |members: &[&Member], next: &AtomicUsize, threads: usize| {
+    // Those that had no memory beside others have it after them.
+    let postponed: Mutex<Vec<usize>> = Mutex::default();
+    let work = |members: &[&Member], next: &AtomicUsize, threads: usize, alone: bool| {
         let mut fates = Vec::new();
-        while let Some(member) = members.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some(&member) = members.get(next.fetch_add(1, Ordering::Relaxed)) {
             let fate = advance(member, directory, threads, request, observer);
+            if !alone && lacks_memory(&fate) {
+                postponed.lock().unwrap_or_else(PoisonError::into_inner).push(member.index);
+                continue;
+            }
             observer.ended(member, &fate);
             fates.push((member.index, fate));
         }
@@ -130,7 +142,7 @@ pub fn run(
     };
     let next = AtomicUsize::new(0);
     // Where there are fewer runs than threads, each has several.
-    let one_of_many = || work(&small, &next, workers / side_by_side);
+    let one_of_many = || work(&small, &next, workers / side_by_side, side_by_side == 1);
     let mut fates = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..side_by_side).map(|_| scope.spawn(one_of_many)).collect();
         let mut fates = Vec::new();
@@ -139,13 +151,31 @@ pub fn run(
         }
         Ok::<_, EnsembleError>(fates)
     })?;
-    fates.extend(work(&large, &AtomicUsize::new(0), workers));
+    let mut one_by_one = small.clone();
+    {
+        let postponed = postponed.lock().unwrap_or_else(PoisonError::into_inner);
+        one_by_one.retain(|member| postponed.contains(&member.index));
+    }
+    for members in [one_by_one, large] {
+        fates.extend(work(&members, &AtomicUsize::new(0), workers, true));
+    }
     fates.sort_by_key(|(index, _)| *index);
     Ok(Report { fates })
 }
 
-/// How many of `members` may be at work at a time: as many as there are workers, and as `available` bytes of memory
-/// suffice for, whichever they are; one at least, which is refused if it does not fit.
+/// Whether a member was refused for want of memory.
+fn lacks_memory(fate: &Fate) -> bool {
+    let error = match fate {
+        Fate::Failed(MemberError::Simulation(error)) => error,
+        Fate::Failed(MemberError::Run(RunError::Simulation { source, .. })) => source,
+        _ => return false,
+    };
+    matches!(error, SimulationError::Memory(_))
+}
+
+/// How many of `members` may be at work at a time: as many as there are workers, and as three quarters of `available`
+/// bytes of memory suffice for, whichever they are, as an estimate is of the least; one at least, which is refused if it
+/// does not fit.
 fn side_by_side(members: &[&Member], workers: usize, available: Option<u64>) -> usize {
     let mut needed: Vec<u64> = members.iter().map(|member| memory::estimate(&member.configuration)).collect();
     needed.sort_unstable_by(|one, other| other.cmp(one));
@@ -153,7 +183,8 @@ fn side_by_side(members: &[&Member], workers: usize, available: Option<u64>) -> 
         *sum = sum.saturating_add(*bytes);
         Some(*sum)
     });
-    let fitting = sums.take_while(|sum| available.is_none_or(|available| *sum <= available)).count();
+    let fits = |sum: &u64| available.is_none_or(|available| *sum <= available - available / 4);
+    let fitting = sums.take_while(fits).count();
     workers.min(fitting).max(1)
 }
 
@@ -252,14 +283,16 @@ mod tests {
         let needed = |index: usize| memory::estimate(&members[index].configuration);
         let (small, large) = (needed(0), needed(3));
         assert!(large > 2 * small);
+        // Estimates are of the least that is taken.
+        let with_a_third = |bytes: u64| (4 * bytes).div_ceil(3);
         for (workers, available, expected) in [
             (4, None, 4),
             (9, None, 4),
             (3, Some(u64::MAX), 3),
-            (4, Some(2 * (small + large)), 4),
-            (4, Some(2 * (small + large) - 1), 3),
-            (4, Some(2 * large), 2),
-            (4, Some(2 * large - 1), 1),
+            (4, Some(with_a_third(2 * (small + large))), 4),
+            (4, Some(with_a_third(2 * (small + large) - 1) - 1), 3),
+            (4, Some(with_a_third(2 * large)), 2),
+            (4, Some(with_a_third(2 * large - 1) - 1), 1),
             // It is refused by itself.
             (4, Some(0), 1),
         ] {

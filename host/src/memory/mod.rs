@@ -70,9 +70,10 @@ pub struct MemoryError {
 pub fn estimate(configuration: &Configuration) -> u64 {
     let system = &configuration.system;
     let (count, grid) = (system.particles as f64, configuration.mesh.grid as f64);
+    let touching = if system.repulsion { CUTOFF } else { 0.0 };
     let reach = match configuration.force {
-        Force::ParticleMesh => CUTOFF,
-        Force::P3m { cutoff, .. } => cutoff.max(CUTOFF),
+        Force::ParticleMesh => touching,
+        Force::P3m { cutoff, .. } => cutoff.max(touching),
     };
     // Each pair is in one list.
     let neighbours = 0.5 * PI * reach * reach * count / (system.side * system.side);

@@ -39,22 +39,27 @@ pub(super) struct Directory {
     _lock: Lock,
 }
 
+/// Whether a directory has more in it than a lock.
+fn is_used(path: &Path) -> Result<bool, FileError> {
+    let look = || -> std::io::Result<bool> {
+        let entries = match fs::read_dir(path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(false),
+            entries => entries?,
+        };
+        for entry in entries {
+            if entry?.file_name() != lock::FILE {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    };
+    look().map_err(|problem| FileError::Write { path: path.to_owned(), problem })
+}
+
 impl Directory {
     /// Refuses a directory that has something in it.
     pub(super) fn refuse_used(path: &Path) -> Result<(), RunError> {
-        let is_used = || -> std::io::Result<bool> {
-            let entries = match fs::read_dir(path) {
-                Err(error) if error.kind() == ErrorKind::NotFound => return Ok(false),
-                entries => entries?,
-            };
-            for entry in entries {
-                if entry?.file_name() != lock::FILE {
-                    return Ok(true);
-                }
-            }
-            Ok(false)
-        };
-        if is_used().map_err(|problem| FileError::Write { path: path.to_owned(), problem })? {
+        if is_used(path)? {
             // Whoever is at work there is the better reason.
             if path.join(lock::FILE).exists() {
                 Lock::take(path)?;
@@ -68,7 +73,9 @@ impl Directory {
     pub(super) fn create(path: &Path, simulation: &Simulation) -> Result<Self, RunError> {
         fs::create_dir_all(path).map_err(|problem| FileError::Write { path: path.to_owned(), problem })?;
         let lock = Lock::take(path)?;
-        Self::refuse_used(path)?;
+        if is_used(path)? {
+            return Err(RunError::NotEmpty(path.to_owned()));
+        }
         let configuration = &simulation.configuration;
         write_atomically(&path.join(CONFIGURATION), configuration.to_toml().as_bytes())?;
         let start =

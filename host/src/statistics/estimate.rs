@@ -52,8 +52,14 @@ impl Estimate {
     /// errors than that by Student's t if they have few degrees of freedom.
     #[must_use]
     pub fn margin(&self, standard_errors: f64) -> f64 {
-        // Without an error there is nothing to estimate.
-        if self.error == 0.0 { 0.0 } else { student_errors(standard_errors, self.degrees) * self.error }
+        if self.error != 0.0 {
+            student_errors(standard_errors, self.degrees) * self.error
+        } else if (1.0..2.0).contains(&self.degrees) {
+            // Two that agree by chance, as whole numbers do.
+            f64::INFINITY
+        } else {
+            0.0
+        }
     }
 
     /// Whether `expected` is within the [margin](Estimate::margin) of so many standard errors.
@@ -99,7 +105,9 @@ mod tests {
         assert!((few.margin(2.0) - 0.4527).abs() < 1e-4);
         assert!(!many.agrees_with(1.4, 2.0) && few.agrees_with(1.4, 2.0));
         assert_eq!(few.of_degrees(9.0), few);
-        assert_eq!(Estimate::exact(1.0).of_degrees(1.0).margin(2.0), 0.0);
+        assert_eq!(Estimate::exact(1.0).margin(2.0), 0.0);
+        assert_eq!(Estimate::exact(1.0).of_degrees(2.0).margin(2.0), 0.0);
+        assert_eq!(Estimate::exact(1.0).of_degrees(1.0).margin(2.0), f64::INFINITY);
         assert!(Estimate::single(1.0).margin(2.0).is_nan());
     }
 

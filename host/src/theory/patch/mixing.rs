@@ -5,7 +5,7 @@ use crate::theory::Pressure;
 use core::f64::consts::PI;
 
 /// The `shares` of shells of `discs` discs with the squared radii `squares` (R0²) after `step` (R0²/D), implicitly:
-/// m ∂c/∂t = Δ[(2πR)²ρD_s Δc/m]. With discs as coordinate, what flows over a circle of radius R is 2πR·ρD_s ∂c/∂R =
+/// m ∂c/∂t = Δ[(2πR)²ρ·ρD_s Δc/m]. With discs as coordinate, what flows over a circle of radius R is 2πR·ρD_s ∂c/∂R =
 /// (2πR)²ρ·ρD_s ∂c/∂(discs), and ρD_s = ρ²/p.
 pub(super) fn mix(pressure: Pressure, squares: &[f64], discs: f64, step: f64, shares: &mut Vec<f64>) {
     if pressure == Pressure::None {

@@ -109,7 +109,8 @@ impl Patch {
     /// `discs` spread evenly within `radius` (R0) as `shells` shells of equally many, in the open plane, with V0 =
     /// `strength` (kBT) and λ = `length` (R0), which may be infinite (Eq. 12).
     ///
-    /// A shell feels half of itself. N discs at random do not act upon themselves: V0·(1 − 1/N) stands for that.
+    /// A shell feels half of itself. N discs at random do not act upon themselves: V0·(1 − 1/N) stands for that on average
+    /// over their places, [`Patch::of_discs`] where these are known.
     ///
     /// # Errors
     /// [`PatchError`].
@@ -166,6 +167,13 @@ impl Patch {
             time: 0.0,
             step: FIRST_STEP * jeans,
         })
+    }
+
+    /// The same of discs whose places are known, which do not attract themselves: one of a shell of m feels (m − 1)/2 of it.
+    #[must_use]
+    pub fn of_discs(mut self) -> Self {
+        self.attraction.acts_on_itself = 0.0;
+        self
     }
 
     /// The same with all periodic images in a box of `side` L (R0), on average over directions.

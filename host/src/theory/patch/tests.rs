@@ -46,6 +46,20 @@ fn discs_that_are_followed_diffuse() {
     }
 }
 
+/// Discs one by one, for λ → ∞ in the open plane: n are within disc n, so that R² falls by 2V0·n a unit of time.
+#[test]
+fn discs_are_pulled_by_those_within() {
+    let radii: Vec<f64> = (0..40).map(|disc| 10.0 + 2.0 * f64::from(disc)).collect();
+    let (strength, time) = (0.89, 1.0);
+    let patch = Patch::of_shells(&radii, 1.0, strength, NEWTONIAN, Pressure::None).unwrap();
+    let mut patch = patch.of_discs();
+    patch.advance_to(time).unwrap();
+    for ((disc, before), after) in (0..).map(f64::from).zip(&radii).zip(patch.radii()) {
+        let expected = (before * before - 2.0 * strength * disc * time).sqrt();
+        assert!((after - expected).abs() < 1e-6, "{disc}: {after}, not {expected}");
+    }
+}
+
 /// Until its shells meet, a patch without pressure is shells.
 #[test]
 fn without_pressure_a_patch_is_shells() {

@@ -78,7 +78,9 @@ pub(super) fn of_even_patch(
     pressure: Pressure,
 ) -> Option<Vec<Curve>> {
     let Start::Disc { radius } = configuration.start else { return None };
-    let (discs, strength) = attracted(configuration);
+    let discs = configuration.system.particles as f64;
+    // Discs at random are attracted by N − 1 others each, wherever they are.
+    let strength = configuration.system.capillary_strength * (1.0 - 1.0 / discs);
     let shells = shells_of(discs);
     let length = configuration.system.capillary_length;
     let patch = Patch::top_hat(discs, radius, shells, strength, length, pressure).ok()?;
@@ -95,25 +97,16 @@ pub(super) fn of_start(configuration: &Configuration, groups: &[Group]) -> Optio
     let from_middle = |position: &Position| libm::hypot(along(position.x), along(position.y));
     let mut distances: Vec<f64> = positions.iter().map(from_middle).collect();
     distances.sort_by(f64::total_cmp);
-    let (discs, strength) = attracted(configuration);
+    let discs = configuration.system.particles as f64;
     let shells = shells_of(discs);
     let share = discs / shells as f64;
     // Disc n stands for those from n to n + 1, as many as its half within it.
     let halves: Curve = distances.iter().zip(0_u32..).map(|(at, n)| (f64::from(n) + 0.5, at * at)).collect();
     let middle = |shell: usize| interpolated(&halves, share * (shell as f64 + 0.5)).map(f64::sqrt);
     let radii: Vec<f64> = (0..shells).filter_map(middle).collect();
-    let length = configuration.system.capillary_length;
-    followed(
-        Patch::of_shells(&radii, share, strength, length, Pressure::discs()).ok()?,
-        configuration,
-        groups,
-    )
-}
-
-/// N and V0·(1 − 1/N): discs at random are attracted by N − 1 others each.
-fn attracted(configuration: &Configuration) -> (f64, f64) {
-    let discs = configuration.system.particles as f64;
-    (discs, configuration.system.capillary_strength * (1.0 - 1.0 / discs))
+    let (strength, length) = (configuration.system.capillary_strength, configuration.system.capillary_length);
+    let patch = Patch::of_shells(&radii, share, strength, length, Pressure::discs()).ok()?;
+    followed(patch.of_discs(), configuration, groups)
 }
 
 /// Shells that a patch of so many discs is cut into.
