@@ -1,7 +1,7 @@
 //! Ctrl-C once and twice: what is told, what the exit code is, and that nothing is left half written.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a helper of a test fails the test by panicking")]
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test by panicking")]
 
 use meniscus_tests::directories::assert_same_files;
 use meniscus_tests::program::{Program, errors};
