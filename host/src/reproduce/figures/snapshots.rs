@@ -60,8 +60,8 @@ pub fn build(evidence: &Evidence, short: bool) -> Result<Built, ReproduceError> 
     built.findings = if short { slow(evidence, &reaches)? } else { fast(evidence, &reaches)? };
     if !short {
         built.notes.push(
-            "What lasts longest is the merging of the last few clusters, and it scatters most from run to run. It is not a matter of how \
-             forces are summed: how large the largest cluster is with the paper's mesh is compared in the last section."
+            "What lasts longest is the merging of the last few clusters, and it scatters most from run to run. Whether it is a matter of \
+             how forces are summed is told in the last section: how large the largest cluster is with the paper's mesh."
                 .to_owned(),
         );
     }
