@@ -25,6 +25,7 @@ mod error;
 pub mod evidence;
 pub mod figures;
 pub mod finding;
+pub mod numbers;
 pub mod report;
 pub mod statistics;
 

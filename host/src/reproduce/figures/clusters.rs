@@ -8,7 +8,8 @@ use crate::observables::series::Series;
 use crate::reproduce::ReproduceError;
 use crate::reproduce::campaign::{Campaign, REACHES, Reach};
 use crate::reproduce::evidence::Evidence;
-use crate::reproduce::finding::{Criterion, Finding, with_error};
+use crate::reproduce::finding::{Criterion, Finding};
+use crate::reproduce::numbers::with_error;
 use crate::reproduce::statistics::{Curve, Curves, average, line, maximum};
 use crate::statistics::Estimate;
 

@@ -11,7 +11,8 @@
 use super::Built;
 use crate::configuration::BOLTZMANN_CONSTANT;
 use crate::reproduce::campaign::PATCH_RADIUS;
-use crate::reproduce::finding::{Criterion, Finding, plain};
+use crate::reproduce::finding::{Criterion, Finding};
+use crate::reproduce::numbers::plain;
 use crate::statistics::Estimate;
 use crate::theory::{Instability, jeans_time, jeans_wavenumber};
 use core::f64::consts::PI;
