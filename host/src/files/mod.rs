@@ -26,6 +26,7 @@ pub mod atomic;
 pub mod csv;
 mod error;
 pub mod extended_xyz;
+pub(crate) mod growing;
 pub mod gsd;
 mod identities;
 pub mod lammps_dump;

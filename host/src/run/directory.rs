@@ -155,9 +155,11 @@ impl Directory {
 
     pub(super) fn write_frame(&mut self, frame: &Frame<'_>) -> Result<(), RunError> {
         self.trajectory_place.check()?;
-        self.trajectory.append(frame)?;
-        // Some formats put a file of their own in the place of the one before.
-        self.trajectory_place.renew()
+        let written = self.trajectory.append(frame);
+        // Some formats put a file of their own in the place of the one before. That the file was cut in the meantime is a
+        // better reason than what came of it.
+        self.trajectory_place.renew()?;
+        Ok(written?)
     }
 
     /// Draws the `index`-th snapshot, clustered discs in red.
@@ -177,8 +179,9 @@ impl Directory {
     /// Waits until the files that grow are on the disk; tells how far they have come, the `next`-th frame being due.
     pub(super) fn sync(&mut self, next: u64) -> Result<(BTreeMap<String, Table>, Frames), RunError> {
         self.trajectory_place.check()?;
-        let Extent { frames, bytes } = self.trajectory.sync()?;
+        let extent = self.trajectory.sync();
         self.trajectory_place.renew()?;
+        let Extent { frames, bytes } = extent?;
         Ok((self.tables.sync()?, Frames { next, frames, bytes }))
     }
 

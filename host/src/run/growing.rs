@@ -1,9 +1,9 @@
 //! A text file that grows line by line and can go on after a stop, and whether a file is still the one it was.
 
 use super::RunError;
-use crate::files::FileError;
+use crate::files::{FileError, growing};
 use std::fs::{self, File};
-use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A file that grows.
@@ -16,7 +16,7 @@ pub(super) struct Growing {
 impl Growing {
     /// Makes the file, which must not exist.
     pub(super) fn create(path: &Path) -> Result<Self, RunError> {
-        let file = File::create_new(path).map_err(|problem| written(path, problem))?;
+        let file = growing::create(path).map_err(|problem| written(path, problem))?;
         Ok(Self { file: BufWriter::new(file), place: Place::of(path)? })
     }
 
@@ -24,7 +24,7 @@ impl Growing {
     /// [`Growing::cut`] to drop.
     pub(super) fn open(path: &Path, length: u64) -> Result<Self, RunError> {
         let open = || -> std::io::Result<(File, u64)> {
-            let file = File::options().write(true).open(path)?;
+            let file = growing::open(path)?;
             let found = file.metadata()?.len();
             Ok((file, found))
         };
@@ -38,11 +38,7 @@ impl Growing {
 
     /// Drops what the file has beyond the length that it was opened with.
     pub(super) fn cut(&mut self) -> Result<(), RunError> {
-        let length = self.place.length;
-        self.file
-            .get_ref()
-            .set_len(length)
-            .and_then(|()| self.file.seek(SeekFrom::Start(length)))
+        growing::cut(&self.place.path, self.place.length)
             .map_err(|problem| written(&self.place.path, problem))?;
         Ok(())
     }
@@ -88,7 +84,7 @@ impl Place {
 
     /// Takes the file that is there now for the one it was. It may have grown.
     pub(super) fn renew(&mut self) -> Result<(), RunError> {
-        let now = Self::of(&self.path)?;
+        let Ok(now) = Self::of(&self.path) else { return Err(RunError::Removed(self.path.clone())) };
         if now.length < self.length {
             return Err(self.changed(now.length));
         }

@@ -1,10 +1,10 @@
 //! Trajectories of lines of text, where a frame is what it is wherever it stands: such a file is cut to go on.
 
 use super::{Extent, Frame};
-use crate::files::FileError;
+use crate::files::{FileError, growing};
 use meniscus_core::torus::Torus;
 use std::fs::File;
-use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// How a frame is written.
@@ -22,7 +22,7 @@ pub(super) struct TextTrajectory {
 
 impl TextTrajectory {
     pub(super) fn create(path: &Path, torus: &Torus, writer: WriteFrame) -> Result<Self, FileError> {
-        let file = File::create_new(path).map_err(|error| written(path, error))?;
+        let file = growing::create(path).map_err(|error| written(path, error))?;
         Ok(Self::new(path, torus, writer, file, Extent::default()))
     }
 
@@ -32,17 +32,16 @@ impl TextTrajectory {
         writer: WriteFrame,
         extent: Extent,
     ) -> Result<Self, FileError> {
-        let file = File::options().write(true).open(path).map_err(|error| written(path, error))?;
-        let cut = |mut file: File| -> std::io::Result<Result<File, u64>> {
+        let open = || -> std::io::Result<Result<File, u64>> {
+            let file = growing::open(path)?;
             let found = file.metadata()?.len();
             if found < extent.bytes {
                 return Ok(Err(found));
             }
-            file.set_len(extent.bytes)?;
-            file.seek(SeekFrom::End(0))?;
+            growing::cut(path, extent.bytes)?;
             Ok(Ok(file))
         };
-        match cut(file).map_err(|error| written(path, error))? {
+        match open().map_err(|error| written(path, error))? {
             Ok(file) => Ok(Self::new(path, torus, writer, file, extent)),
             Err(found) => Err(FileError::Extent {
                 path: path.to_owned(),
