@@ -117,6 +117,11 @@ impl Pressure {
             Self::HardDiscs { radius } => 1.0 / covered(radius, 1.0),
         }
     }
+
+    /// The density (R0⁻²) that nothing may exceed on its way: a little less, where the pressure is finite.
+    pub(super) fn densest(&self) -> f64 {
+        0.999_999 * self.largest_density()
+    }
 }
 
 /// The covered fraction η = πa²ρ.

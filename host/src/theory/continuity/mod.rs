@@ -52,9 +52,6 @@ const COURANT: f64 = 0.5;
 /// relative to the rate.
 const GROWTH_STEP: f64 = 0.03;
 
-/// Fraction of the largest density of an equation of state that no cell may exceed.
-const DENSEST: f64 = 0.999_999;
-
 /// Halvings of a step before the solution is given up.
 const MOST_HALVINGS: usize = 60;
 
@@ -125,7 +122,7 @@ impl Continuity {
             return Err(ContinuityError::Count { found: density.len(), cells });
         }
         let largest = pressure.largest_density();
-        let fits = |density: f64| density >= 0.0 && density.is_finite() && density <= DENSEST * largest;
+        let fits = |density: f64| density >= 0.0 && density.is_finite() && density <= pressure.densest();
         if let Some(index) = density.iter().position(|&density| !fits(density)) {
             return Err(ContinuityError::Density { index, density: density[index], largest });
         }
@@ -234,7 +231,7 @@ impl Continuity {
 
     /// Whether the equation of state has an answer everywhere.
     fn is_fluid(&self, density: &[f64]) -> bool {
-        let most = DENSEST * self.pressure.largest_density();
+        let most = self.pressure.densest();
         density.iter().all(|&density| density >= 0.0 && density.is_finite() && density <= most)
     }
 }

@@ -47,9 +47,6 @@ use squeeze::{apart, squeezed};
 /// Estimated error of a step, of the largest R² at the start.
 const TOLERANCE: f64 = 3e-5;
 
-/// Fraction of the largest density of an equation of state that nothing may exceed.
-const DENSEST: f64 = 0.999_999;
-
 /// The first step to try, of Jeans' time.
 const FIRST_STEP: f64 = 1e-3;
 

@@ -1,6 +1,5 @@
 //! One implicit step of shells that are pulled by their attraction and held apart by their pressure.
 
-use super::DENSEST;
 use super::tridiagonal::{Row, solved};
 use crate::theory::Pressure;
 use core::f64::consts::PI;
@@ -67,7 +66,7 @@ pub(super) fn apart(pressure: Pressure, squares: &[f64], discs: f64) -> bool {
 
 /// The least difference of squared radii of neighbouring shells, R0².
 fn least_gap(pressure: Pressure, discs: f64) -> f64 {
-    discs / (PI * DENSEST * pressure.largest_density())
+    discs / (PI * pressure.densest())
 }
 
 /// That between a shell and the one within; within the first there is but half of it.
