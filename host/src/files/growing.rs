@@ -23,7 +23,6 @@ pub(crate) fn cut(path: &Path, length: u64) -> Result<()> {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
     use super::{create, cut, open};
     use std::fs;
