@@ -24,7 +24,7 @@
 //! assert_eq!(error.to_string(), "line 2, column y: found `8`, expected a number of R0 in [0, 8)");
 //! ```
 
-use super::atomic::write_atomically;
+use super::atomic::AtomicFile;
 use super::identities::{Rows, coordinate, strength};
 use super::lines::Lines;
 use super::state::State;
@@ -32,7 +32,6 @@ use super::{FileError, FormatError, read_with};
 use crate::strengths;
 use csv_core::{Reader, ReaderBuilder, Terminator};
 use meniscus_core::torus::{Position, Torus};
-use std::fmt::Write as _;
 use std::io::BufRead;
 use std::path::Path;
 
@@ -170,18 +169,24 @@ impl Columns {
 /// (given in units of 2⁻²⁰, written as a number) if there are strengths and not all of them are 1.
 #[must_use]
 pub fn format(torus: &Torus, positions: &[Position], strengths: &[i32]) -> String {
+    lines(torus, positions, strengths).collect()
+}
+
+/// The lines of that text, each with its end.
+fn lines<'a>(
+    torus: &'a Torus,
+    positions: &'a [Position],
+    strengths: &'a [i32],
+) -> impl Iterator<Item = String> + 'a {
     let told = !strengths::all_one(strengths);
-    let mut text = String::from(if told { "id,x,y,strength\n" } else { "id,x,y\n" });
-    for (id, position) in positions.iter().enumerate() {
+    let discs = positions.iter().enumerate().map(move |(id, position)| {
         let (x, y) = (torus.coordinate(position.x), torus.coordinate(position.y));
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{id},{x},{y}");
-        let _ = match strengths.get(id) {
-            Some(&strength) if told => writeln!(text, ",{}", strengths::to_number(strength)),
-            _ => writeln!(text),
-        };
-    }
-    text
+        match strengths.get(id) {
+            Some(&strength) if told => format!("{id},{x},{y},{}\n", strengths::to_number(strength)),
+            _ => format!("{id},{x},{y}\n"),
+        }
+    });
+    std::iter::once((if told { "id,x,y,strength\n" } else { "id,x,y\n" }).to_owned()).chain(discs)
 }
 
 /// Writes the discs to the file at `path`, whole or not at all.
@@ -189,5 +194,7 @@ pub fn format(torus: &Torus, positions: &[Position], strengths: &[i32]) -> Strin
 /// # Errors
 /// [`FileError::Write`].
 pub fn write(path: &Path, torus: &Torus, positions: &[Position], strengths: &[i32]) -> Result<(), FileError> {
-    write_atomically(path, format(torus, positions, strengths).as_bytes())
+    let mut file = AtomicFile::create(path)?;
+    lines(torus, positions, strengths).try_for_each(|line| file.append(&line))?;
+    file.finish()
 }
