@@ -24,15 +24,16 @@ impl MeshReuse {
         self.transforms += u64::from(step.refreshed);
     }
 
-    /// Compares forces computed anew, `fresh`, with those they took the place of, `old`, along one axis.
+    /// Compares forces computed anew, `fresh`, with those they took the place of, `old`, along one axis. Sums over the
+    /// discs are of integers, for the order in which discs are stored is not to be seen.
     pub(super) fn compare(&mut self, fresh: &[i64], old: &[i64]) {
-        let (mut difference, mut force) = self.squares.unwrap_or_default();
+        let (mut difference, mut force) = (0_u128, 0_u128);
         for (&fresh, &old) in fresh.iter().zip(old) {
-            let off = fresh.saturating_sub(old) as f64;
-            difference += off * off;
-            force += fresh as f64 * fresh as f64;
+            difference = difference.saturating_add(square(fresh.abs_diff(old)));
+            force = force.saturating_add(square(fresh.unsigned_abs()));
         }
-        self.squares = Some((difference, force));
+        let (differences, forces) = self.squares.unwrap_or_default();
+        self.squares = Some((differences + difference as f64, forces + force as f64));
     }
 
     /// The share of steps that did without computing the force of the mesh, 0 to 1.
@@ -47,5 +48,33 @@ impl MeshReuse {
     pub fn error(&self) -> Option<f64> {
         let (difference, force) = self.squares?;
         (force > 0.0).then(|| (difference / force).sqrt())
+    }
+}
+
+fn square(number: u64) -> u128 {
+    u128::from(number) * u128::from(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::MeshReuse;
+
+    #[test]
+    fn the_order_of_discs_does_not_show() {
+        // In binary64 the first and the last of these orders have other sums.
+        let (fresh, old) = ([1_i64 << 53, 3, -5], [0_i64, 1, 2]);
+        let error = |order: [usize; 3]| {
+            let mut reuse = MeshReuse::default();
+            reuse.compare(&order.map(|disc| fresh[disc]), &order.map(|disc| old[disc]));
+            reuse.squares
+        };
+        for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            assert_eq!(error(order), error([0, 1, 2]));
+        }
+        let mut reuse = MeshReuse::default();
+        reuse.compare(&[3, -4], &[0, -4]);
+        reuse.compare(&[0, i64::MAX], &[0, i64::MAX]);
+        let large = i64::MAX as f64;
+        assert_eq!(reuse.squares, Some((9.0, 25.0 + large * large)));
     }
 }
