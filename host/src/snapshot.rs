@@ -39,6 +39,8 @@ pub const HEIGHT: u32 = 1064;
 /// Dots along a side of a pixel. All is drawn in dots; a pixel has the mean colour of its dots, so that
 /// edges are smooth.
 const DOTS: u32 = 4;
+/// Memory that a picture takes while it is drawn, bytes: three of each dot.
+pub(crate) const MEMORY: u32 = 3 * WIDTH * DOTS * HEIGHT * DOTS;
 /// Left border of the box, dots.
 const LEFT: i32 = 142 * DOTS as i32;
 /// Upper border of the box, dots.

@@ -209,6 +209,11 @@ fn a_run_that_memory_would_not_suffice_for_is_refused_before_it_asks() {
     let part = "1610612736 of them for the rows of minkowski, and ";
     assert!(errors(&output).contains(part), "{}", errors(&output));
     assert!(errors(&output).contains("or take a larger output.minkowski_spacing"), "{}", errors(&output));
+    let pictures = "run small.toml --out never --set output.snapshots=1";
+    let output = program.shell(&format!("ulimit -v 60000; meniscus {pictures}"));
+    let (part, remedy) =
+        ("55566336 of them for a snapshot, and ", "or leave the snapshots out by output.snapshots = 0");
+    assert!(errors(&output).contains(part) && errors(&output).contains(remedy), "{}", errors(&output));
     // What fits is not refused: the same limit, a smaller mesh.
     let small =
         program.shell("ulimit -v 500000; meniscus run small.toml --until 0.01 --out small --threads 1");

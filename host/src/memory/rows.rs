@@ -1,12 +1,13 @@
-//! What the rows of a run's tables take besides the run, at the least: measured, and understood.
+//! What the rows of a run's tables and its snapshots take besides the run, at the least: measured, and understood.
 //!
 //! Each series keeps something from one row to the next, and needs more while its rows are made; series are made one after
-//! the other. What trajectories and snapshots take is less than what the tables do.
+//! the other, snapshots after them. What trajectories take is less than what the tables do.
 
 use crate::configuration::Configuration;
 use crate::observables::energy::PotentialEnergy;
 use crate::observables::series::Series;
 use crate::observables::structure_factor::{LARGEST_WAVENUMBER, SHELLS_KEPT};
+use crate::snapshot;
 use std::f64::consts::TAU;
 
 /// Bytes a disc takes while it is looked at: its position, box crossings and strength.
@@ -57,7 +58,12 @@ fn kept_and_needed(series: Series, configuration: &Configuration) -> [f64; 2] {
     }
 }
 
-/// Bytes that the tables of a run of this configuration take.
+/// Bytes that a snapshot needs, if there are any.
+fn snapshot(configuration: &Configuration) -> f64 {
+    if configuration.output.snapshots > 0.0 { f64::from(snapshot::MEMORY) } else { 0.0 }
+}
+
+/// Bytes that the tables and snapshots of a run of this configuration take.
 pub(super) fn estimate(configuration: &Configuration) -> f64 {
     let is_written = |series: &Series| configuration.output.interval(*series) > 0.0;
     let written = || Series::ALL.into_iter().filter(is_written);
@@ -66,23 +72,44 @@ pub(super) fn estimate(configuration: &Configuration) -> f64 {
     let at_start = if written().any(Series::compares_with_start) { BYTES_AT_START * count } else { 0.0 };
     let each = || written().map(|series| kept_and_needed(series, configuration));
     let kept: f64 = each().map(|[kept, _]| kept).sum();
-    let needed = each().map(|[_, needed]| needed).fold(0.0, f64::max);
+    let needed = each().map(|[_, needed]| needed).fold(snapshot(configuration), f64::max);
     looked_at + at_start + kept + needed
 }
 
-/// The series that takes most while its rows are made, and how much, bytes.
-pub(super) fn largest(configuration: &Configuration) -> Option<(Series, u64)> {
-    let taken = |series: Series| {
-        let [kept, needed] = kept_and_needed(series, configuration);
-        (series, (kept + needed) as u64)
-    };
-    Series::ALL.into_iter().map(taken).max_by_key(|(_, bytes)| *bytes)
+/// Something that a run writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The rows of a table.
+    Rows(Series),
+    /// Pictures.
+    Snapshots,
 }
 
-/// How a series takes less.
-pub(super) fn remedy(series: Series) -> String {
-    match series {
-        Series::Minkowski => "take a larger output.minkowski_spacing".to_owned(),
-        other => format!("leave the table out by output.{} = 0", other.name()),
+/// The part that takes most while it is made, and how much, bytes.
+pub(super) fn largest(configuration: &Configuration) -> Option<(Part, u64)> {
+    let taken = |series: Series| {
+        let [kept, needed] = kept_and_needed(series, configuration);
+        (Part::Rows(series), (kept + needed) as u64)
+    };
+    let snapshots = (Part::Snapshots, snapshot(configuration) as u64);
+    Series::ALL.into_iter().map(taken).chain([snapshots]).max_by_key(|(_, bytes)| *bytes)
+}
+
+impl Part {
+    /// What it is, in a sentence.
+    pub(super) fn name(self) -> String {
+        match self {
+            Self::Rows(series) => format!("the rows of {}", series.name()),
+            Self::Snapshots => "a snapshot".to_owned(),
+        }
+    }
+
+    /// How it takes less.
+    pub(super) fn remedy(self) -> String {
+        match self {
+            Self::Rows(Series::Minkowski) => "take a larger output.minkowski_spacing".to_owned(),
+            Self::Rows(other) => format!("leave the table out by output.{} = 0", other.name()),
+            Self::Snapshots => "leave the snapshots out by output.snapshots = 0".to_owned(),
+        }
     }
 }
