@@ -372,26 +372,28 @@ fn a_file_that_is_cut_under_way_is_noticed() {
 /// A limit on the size of files takes the place of a disk that is full: what is written is cut in the same way.
 #[test]
 fn a_full_disk_loses_nothing_that_was_written() {
-    let folder = folder();
-    let until = ["--until", "3"];
-    succeed(folder.path(), &run("whole", &until));
-    let program = env!("CARGO_BIN_EXE_meniscus-under-test");
-    // 16 KiB; the signal that comes with it is to be ignored, so that the write fails instead.
-    let script = format!("trap '' XFSZ; ulimit -f 16; exec {program} \"$@\"");
-    let mut command = Command::new("bash");
-    command.current_dir(folder.path()).args(["-c", &script, "bash"]).args(run("run", &until));
-    let output = command.output().unwrap();
-    told(
-        &output,
-        Some(2),
-        &[
-            "run/",
-            "cannot be written: File too large",
-            "`meniscus resume run` goes on from the checkpoint at step ",
-        ],
-    );
-    assert!(store::latest(&folder.path().join("run")).is_ok());
-    assert_goes_on(folder.path());
+    for format in ["output.trajectory_format=gsd", "output.trajectory_format=npz"] {
+        let folder = folder();
+        let arguments = |out| run(out, &["--until", "3", "--set", format]);
+        succeed(folder.path(), &arguments("whole"));
+        let program = env!("CARGO_BIN_EXE_meniscus-under-test");
+        // 16 KiB; the signal that comes with it ends programs that do not mind it.
+        let script = format!("ulimit -f 16; exec {program} \"$@\"");
+        let mut command = Command::new("bash");
+        command.current_dir(folder.path()).args(["-c", &script, "bash"]).args(arguments("run"));
+        let output = command.output().unwrap();
+        told(
+            &output,
+            Some(2),
+            &[
+                "run/",
+                "cannot be written: File too large",
+                "`meniscus resume run` goes on from the checkpoint at step ",
+            ],
+        );
+        assert!(store::latest(&folder.path().join("run")).is_ok());
+        assert_goes_on(folder.path());
+    }
 }
 
 /// Runs `script`, in which `$meniscus` is the program, where it may mount what `mounts` does, and nobody else sees it. None

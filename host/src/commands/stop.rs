@@ -5,6 +5,13 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// A file that may not grow further is a write that fails, with an error to be told, rather than the end of the program.
+pub(super) fn outlive_limits_of_files() {
+    // Where it cannot be had, the program ends as others do.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
+}
+
 /// A flag that Ctrl-C and requests to terminate raise; they do nothing else any more. A command that has acted upon it
 /// lowers it, and then sees whether there is another.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use crate::files::trajectory::{Extent, Frame};
 use crate::files::{FileError, FormatError};
 use meniscus_core::torus::Torus;
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Error, Read, Write};
+use std::io::{BufReader, BufWriter, Error, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
@@ -79,7 +79,7 @@ impl NpzTrajectory {
             _ => Some(ZipArchive::new(BufReader::new(File::open(&self.path)?)).map_err(Error::other)?),
         };
         let temporary = temporary_beside(&self.path)?;
-        let mut zip = ZipWriter::new(BufWriter::new(temporary.as_file()));
+        let mut zip = ZipWriter::new(BufWriter::new(Deferred { file: temporary.as_file(), error: None }));
         for array in ARRAYS {
             let header = array.header(frames, self.count);
             let kept =
@@ -104,11 +104,54 @@ impl NpzTrajectory {
                 new.iter().try_for_each(|frame| zip.write_all(&array.data(&self.torus, frame)))?;
             }
         }
-        zip.finish().map_err(Error::other)?.into_inner().map_err(|error| error.into_error())?.sync_all()?;
+        let output = zip.finish().map_err(Error::other)?.into_inner().map_err(|error| error.into_error())?;
+        output.error.map_or(Ok(()), Err)?;
+        temporary.as_file().sync_all()?;
         take_place(temporary, &self.path)
     }
 
     fn failed(&self, problem: Error) -> FileError {
         FileError::Write { path: self.path.clone(), problem }
+    }
+}
+
+/// A file that keeps the first error for the end, and takes what comes after it for written: the library prints an error
+/// that is left to it when it drops an archive half written.
+struct Deferred<'a> {
+    file: &'a File,
+    error: Option<Error>,
+}
+
+impl Deferred<'_> {
+    /// What `result` holds, or `instead` if nothing can be written any more.
+    fn deferred<T>(&mut self, result: std::io::Result<T>, instead: T) -> std::io::Result<T> {
+        match result {
+            Err(error) if error.kind() != ErrorKind::Interrupted => {
+                self.error.get_or_insert(error);
+                Ok(instead)
+            }
+            other => other,
+        }
+    }
+}
+
+impl Write for Deferred<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.error.is_some() {
+            return Ok(bytes.len());
+        }
+        let written = self.file.write(bytes);
+        self.deferred(written, bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Seek for Deferred<'_> {
+    fn seek(&mut self, place: SeekFrom) -> std::io::Result<u64> {
+        let found = self.file.seek(place);
+        self.deferred(found, 0)
     }
 }
