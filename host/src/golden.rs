@@ -244,11 +244,18 @@ impl Golden {
             let expected = "[step, time, length, digest of the state, of x, of y]";
             read_record(row).ok_or_else(|| wrong(&format!("records[{index}]"), expected))
         });
+        let records: Vec<Record> = records.collect::<Result<_, _>>()?;
+        if let Some(place) = records.array_windows().position(|[one, next]| one.step >= next.step) {
+            return Err(wrong(
+                &format!("records[{}]", place + 1),
+                "a later step than that of the record before",
+            ));
+        }
         Ok(Self {
             version: text("version")?,
             reason: text("reason")?,
             configuration: text("configuration")?,
-            records: records.collect::<Result<_, _>>()?,
+            records,
         })
     }
 

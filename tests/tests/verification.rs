@@ -260,6 +260,18 @@ fn spoil(program: &Program, golden: &str, step: u64) {
 }
 
 #[test]
+fn records_that_do_not_follow_each_other_are_refused() {
+    let program = program();
+    program.succeed(&["run", "small.toml", "--out", "run", "--every", "10"]);
+    let text = program.text("run/golden.toml");
+    for step in ["0", "10"] {
+        program.write("wrong.toml", text.replacen("  [20,", &format!("  [{step},"), 1));
+        let expected = "wrong.toml: records[2]: expected a later step than that of the record before";
+        program.refuse(&["verify", "wrong.toml"], &[expected]);
+    }
+}
+
+#[test]
 fn verify_bisects_from_a_state_that_holds_mesh_forces() {
     let program = program();
     let run = ["run", "small.toml", "--set", "force.mesh_refresh=0.3"];

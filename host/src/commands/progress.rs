@@ -1,4 +1,4 @@
-//! Progress of a run, and of what goes through frames: a bar on a terminal, a line now and then elsewhere, nothing with `--quiet`.
+//! Progress of a run, and of what goes through frames or repeats steps: a bar on a terminal, a line now and then elsewhere, nothing with `--quiet`.
 
 use super::Reporter;
 use crate::simulation::Simulation;
@@ -67,39 +67,43 @@ impl Progress {
     }
 }
 
-/// Progress through the frames of a file.
-pub(super) struct FrameProgress {
+/// Progress through things that are counted, the frames of a file or the steps that a run is to have.
+pub(super) struct CountProgress {
     begun: Instant,
     shown: Instant,
-    /// Number of frames, if it is known before they are read.
+    /// One of them.
+    unit: &'static str,
+    /// How many there were at the beginning.
+    first: u64,
+    /// How many there are in the end, if that is known.
     total: Option<u64>,
     bar: Option<ProgressBar>,
 }
 
-impl FrameProgress {
-    pub(super) fn new(total: Option<u64>, reporter: &Reporter<'_>) -> Self {
+impl CountProgress {
+    pub(super) fn new(unit: &'static str, first: u64, total: Option<u64>, reporter: &Reporter<'_>) -> Self {
         let now = Instant::now();
-        Self { begun: now, shown: now, total, bar: bar(total, reporter) }
+        Self { begun: now, shown: now, unit, first, total, bar: bar(total, reporter) }
     }
 
-    /// Shows that `frames` are done, if it is time to.
-    pub(super) fn show(&mut self, frames: u64, reporter: &Reporter<'_>) {
+    /// Shows that `count` are done, if it is time to.
+    pub(super) fn show(&mut self, count: u64, reporter: &Reporter<'_>) {
         let interval = if self.bar.is_some() { REFRESH } else { LINE_INTERVAL };
         if self.shown.elapsed() < interval {
             return;
         }
         self.shown = Instant::now();
-        let rate = frames as f64 / self.begun.elapsed().as_secs_f64();
+        let (unit, rate) = (self.unit, (count - self.first) as f64 / self.begun.elapsed().as_secs_f64());
         let message = match self.total {
             Some(total) => {
-                let left = total.saturating_sub(frames) as f64 / rate;
-                format!("frame {frames} of {total}, {rate:.1} frames/s, {} left", duration(left))
+                let left = total.saturating_sub(count) as f64 / rate;
+                format!("{unit} {count} of {total}, {rate:.1} {unit}s/s, {} left", duration(left))
             }
-            None => format!("frame {frames}, {rate:.1} frames/s"),
+            None => format!("{unit} {count}, {rate:.1} {unit}s/s"),
         };
         match &self.bar {
             Some(bar) => {
-                bar.set_position(frames);
+                bar.set_position(count);
                 bar.set_message(message);
             }
             None => reporter.note(&message),

@@ -1,12 +1,14 @@
 //! `meniscus verify GOLDEN [--bisect]`
 
 use super::machinery::MachineryArguments;
+use super::progress::CountProgress;
 use super::{CommandError, Reporter, Verdict};
 use crate::configuration::Configuration;
-use crate::engine::{Engine, Trace};
+use crate::engine::{Engine, EngineError, Trace};
 use crate::golden::{Difference, Golden, Record};
 use crate::simulation::Simulation;
-use crate::verification::{Contradiction, compare, first_contradiction, reversed};
+use crate::verification::{Contradiction, Repeated, Steps, compare, first_contradiction, reversed};
+use meniscus_core::dynamics::Clock;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -43,10 +45,18 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
         return print_stages(&mut simulation()?.engine, step, reporter);
     }
     let mut agreed = None;
-    let difference = compare(&golden, &mut simulation()?.engine, |record| {
-        agreed = Some(record.step);
-        reporter.detail(&format!("step {} is equal", record.step));
-    })?;
+    let engine = &mut simulation()?.engine;
+    let last = golden.records.last().map(|record| record.step);
+    let mut progress = CountProgress::new("step", engine.clock().step, last, reporter);
+    let difference = compare(&golden, engine, |repeated| match repeated {
+        Repeated::Step(step) => progress.show(step, reporter),
+        Repeated::Record(record) => {
+            agreed = Some(record.step);
+            reporter.detail(&format!("step {} is equal", record.step));
+        }
+    });
+    progress.finish();
+    let difference = difference?;
     let Some(difference) = difference else {
         let (count, step) = (golden.records.len(), agreed.unwrap_or_default());
         reporter.text(&format!("equal: {count} records to step {step}\n"))?;
@@ -136,27 +146,59 @@ fn bisect(
 ) -> Result<Search, CommandError> {
     let Simulation { mut engine, configuration, .. } = simulation;
     if let Some(agreed) = agreed {
-        advance(&mut engine, agreed)?;
+        advance(&mut engine, agreed, reporter)?;
     }
     let mut other = reversed(&engine, &configuration)?;
     let engines = [engine.kind().word(), other.kind().word()];
     let step = engine.clock().step;
     reporter
         .detail(&format!("comparing --engine {} with --engine {} from step {step}", engines[0], engines[1]));
-    let contradiction = first_contradiction(&mut engine, &mut other, last)?;
+    let mut progress = CountProgress::new("step", step, Some(last), reporter);
+    let watched = &mut Watched { engine, progress: &mut progress, reporter };
+    let contradiction = first_contradiction(watched, &mut other, last);
+    progress.finish();
+    let contradiction = contradiction?;
     // An engine that refuses a step does not give the record, and what was found before is to be told.
-    let arrives = advance(&mut other, last).is_ok();
+    let arrives = advance(&mut other, last, reporter).is_ok();
     let found = Record::from(other.state().digest_by_field());
     let expected = golden.records.iter().find(|record| record.step == last);
     let other_is_right = arrives && expected.is_some_and(|expected| expected.difference(&found).is_none());
     Ok(Search { engines, contradiction, begun: step, other_is_right })
 }
 
-fn advance(engine: &mut Engine, step: u64) -> Result<(), CommandError> {
-    while engine.clock().step < step {
-        engine.step()?;
+/// Runs up to step `last`.
+fn advance(engine: &mut Engine, last: u64, reporter: &Reporter<'_>) -> Result<(), EngineError> {
+    let mut progress = CountProgress::new("step", engine.clock().step, Some(last), reporter);
+    let mut result = Ok(());
+    while result.is_ok() && engine.clock().step < last {
+        result = engine.step().map(|_| ());
+        progress.show(engine.clock().step, reporter);
     }
-    Ok(())
+    progress.finish();
+    result
+}
+
+/// An engine whose steps are shown.
+struct Watched<'a, 'b> {
+    engine: Engine,
+    progress: &'a mut CountProgress,
+    reporter: &'a Reporter<'b>,
+}
+
+impl Steps for Watched<'_, '_> {
+    fn traced_step(&mut self, trace: &mut Trace) -> Result<Clock, EngineError> {
+        let clock = Steps::traced_step(&mut self.engine, trace)?;
+        self.progress.show(clock.step, self.reporter);
+        Ok(clock)
+    }
+
+    fn clock(&self) -> Clock {
+        self.engine.clock()
+    }
+
+    fn record(&self) -> Record {
+        self.engine.record()
+    }
 }
 
 /// Prints length and digest of what each stage of a step hands on.
@@ -169,7 +211,7 @@ fn print_stages(
     if step <= start {
         return Err(CommandError::StageBeforeStart { step, start });
     }
-    advance(engine, step - 1)?;
+    advance(engine, step - 1, reporter)?;
     let mut trace = Trace::default();
     engine.traced_step(&mut trace)?;
     let mut table = String::new();

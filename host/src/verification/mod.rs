@@ -24,8 +24,17 @@ pub use search::{Contradiction, Parting, Steps, first_contradiction, reversed};
 use crate::engine::{Engine, EngineError};
 use crate::golden::{Difference, Golden, Record};
 
-/// Runs `engine` from its state to the last record of `golden` and compares at each record; `report` sees the
-/// records that agree.
+/// What is told while a golden run is repeated.
+#[derive(Clone, Copy, Debug)]
+pub enum Repeated<'a> {
+    /// A step was done, so many since the beginning.
+    Step(u64),
+    /// A record agrees.
+    Record(&'a Record),
+}
+
+/// Runs `engine` from its state to the last record of `golden` and compares at each record; `report` is told of steps
+/// and of the records that agree.
 ///
 /// Returns the first difference, at which it stops.
 ///
@@ -34,17 +43,18 @@ use crate::golden::{Difference, Golden, Record};
 pub fn compare(
     golden: &Golden,
     engine: &mut Engine,
-    mut report: impl FnMut(&Record),
+    mut report: impl FnMut(Repeated<'_>),
 ) -> Result<Option<Difference>, EngineError> {
     for record in &golden.records {
         while engine.clock().step < record.step {
             engine.step()?;
+            report(Repeated::Step(engine.clock().step));
         }
         let found = Record::from(engine.state().digest_by_field());
         if let Some(difference) = record.difference(&found) {
             return Ok(Some(difference));
         }
-        report(record);
+        report(Repeated::Record(record));
     }
     Ok(None)
 }
