@@ -112,6 +112,12 @@ fn a_run_that_holds_mesh_forces_says_so_and_goes_on_bit_for_bit() {
     assert!(number("transforms") > 1.0 && number("transforms") < number("steps"), "{reuse}");
     assert!((number("saved") - (1.0 - number("transforms") / number("steps"))).abs() < 1e-12, "{reuse}");
     assert!((0.001..0.2).contains(&number("measured_error")), "{reuse}");
+    // Where a disc is stored, and with it the engine, is not to be seen in the sums.
+    let core = ["--engine", "core", "--max-wall", "0"];
+    program.succeed(&[&["run", "small.toml", "--out", "core"], &held[..], &core[..]].concat());
+    program.succeed(&["resume", "core", "--engine", "core", "--until", "0.3"]);
+    program.succeed(&["resume", "core", "--until", "0.5"]);
+    assert_eq!(summary("core")["force"]["mesh_refresh"], reuse);
     // Stopped and gone on, from a state in which forces are held.
     program.succeed(&[&["run", "small.toml", "--out", "part", "--until", "0.2"], &held[..]].concat());
     assert!(
@@ -229,6 +235,8 @@ fn forces_are_printed_for_every_disc_of_a_file() {
     assert!((rows[0][3] + rows[1][3]).abs() < 1e-4 && rows[0][4].abs() < 1e-4, "{table}");
     program.succeed(&["forces", "small.toml", "--positions", "two.csv", "--out", "forces.csv"]);
     assert_eq!(fs::read_to_string(program.folder().join("forces.csv")).unwrap(), table);
+    let overwrite = ["forces", "small.toml", "--positions", "two.csv", "--out", "two.csv"];
+    program.refuse(&overwrite, &["two.csv: this file exists: name another file, or remove it"]);
 }
 
 #[test]
@@ -435,7 +443,7 @@ fn a_refused_step_leaves_the_state_and_the_force_that_refused_it() {
         "--set",
         "motion.max_displacement=1e-12",
     ];
-    program.refuse(&arguments, &["step 0", "2⁻⁴⁰", "max_displacement"]);
+    program.refuse(&arguments, &["step 0", "2^-40", "max_displacement"]);
     let table = fs::read_to_string(program.folder().join("run/observables.csv")).unwrap();
     let row: Vec<&str> = table.lines().nth(1).unwrap().split(',').collect();
     assert_eq!(row[3], "0", "no step is possible: {table}");

@@ -236,12 +236,16 @@ fn csv_says_where_and_what_is_wrong() {
         ("1,2\n", "line 1: found no column x, expected columns named x and y, and perhaps id"),
         ("x,y,x\n", "line 1: found two columns x, expected one"),
         ("x,y\n1,2\n3\n", "line 3: found 1 values, expected at least 2, as the columns named"),
+        (
+            "x,y\n1,5,2,5\n",
+            "line 2: found 4 values, expected 2, as the columns named (decimals have a point)",
+        ),
         ("x,y\n1,a\n", "line 2, column y: found `a`, expected a number of R0 in [0, 8)"),
         ("x,y\n-0.1,1\n", "line 2, column x: found `-0.1`, expected a number of R0 in [0, 8)"),
         ("x,y\n8,1\n", "line 2, column x: found `8`, expected a number of R0 in [0, 8)"),
         ("x,y\nNaN,1\n", "line 2, column x: found `NaN`, expected a number of R0 in [0, 8)"),
         ("x,y\n1,inf\n", "line 2, column y: found `inf`, expected a number of R0 in [0, 8)"),
-        ("x,y,id\n1,1,-1\n", "line 2, column id: found `-1`, expected a whole number from 0"),
+        ("x,y,id\n1,1,-1\n", "line 2, column id: found `-1`, expected a whole number from 0 to 4194303"),
         ("x,y,id\n1,1,0\n2,2,1\n3,3,0\n", "line 4, column id: found 0 a second time, expected each id once"),
         (
             "x,y,id\n1,1,0\n2,2,2\n",

@@ -241,6 +241,10 @@ fn a_file_without_its_run_says_what_it_needs() {
     let other = ["analyze", "alone-trajectory.gsd", "--configuration", "fig-12"];
     program.refuse(&[&other[..], &["--box", "48"]].concat(), &["box is 48", "800", "--configuration"]);
     program.refuse(&["analyze", "run/trajectory.gsd", "--spacing", "-1"], &["minkowski", "-1"]);
+    for thresholds in ["1,0.5", "0.5,0.5"] {
+        let arguments = ["analyze", "run/trajectory.gsd", "--thresholds", thresholds];
+        program.refuse(&arguments, &["--thresholds: found 0.5 after ", ", expected increasing numbers"]);
+    }
     program.refuse(
         &["analyze", "run", "--out", "run"],
         &["run/observables.csv: this file exists: name another directory by --out, or remove it"],

@@ -1,6 +1,6 @@
 //! `meniscus analyze TRAJECTORY|DIR [--series NAME,…] [--out DIR] …`
 
-use super::progress::FrameProgress;
+use super::progress::CountProgress;
 use super::stop::StopSignal;
 use super::{CommandError, Reporter, Verdict};
 use crate::configuration::{Configuration, Start};
@@ -46,6 +46,9 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let stop = StopSignal::catch()?;
+    if let Some([below, above]) = arguments.thresholds.array_windows().find(|[below, above]| below >= above) {
+        return Err(CommandError::Thresholds { below: *below, above: *above });
+    }
     let (path, configuration) = arguments.source()?;
     let given = arguments.torus(&path, configuration.as_ref())?;
     let mut reader = TrajectoryReader::open(&path, given.as_ref())?;
@@ -67,7 +70,7 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
 
     let directory = arguments.out.clone().unwrap_or_else(|| beside(&path));
     let mut tables = Tables::create(&directory, &series)?;
-    let mut progress = FrameProgress::new(reader.frames(), reporter);
+    let mut progress = CountProgress::new("frame", 0, reader.frames(), reporter);
     let mut frames = 0;
     while let Some(recorded) = next {
         let moment = moment(&recorded, jeans_time);

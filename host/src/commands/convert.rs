@@ -34,6 +34,14 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     if to.exists() {
         return Err(CommandError::Exists { path: to.clone(), another: "another file" });
     }
+    let has_times = Format::of_path(from) != Some(Format::LammpsDump);
+    if !has_times && !matches!(target, Target::Csv | Target::Trajectory(Format::LammpsDump)) {
+        reporter.note(&format!(
+            "{} has no times: that of every frame is 0 in {}",
+            from.display(),
+            to.display()
+        ));
+    }
     let torus = box_given(from, *side)?;
     let mut frames =
         Frames { reader: TrajectoryReader::open(from, torus.as_ref())?, from, only: *frame, read: 0 };

@@ -17,16 +17,20 @@ pub(super) struct Arguments {
     source: Source,
     /// Positions in [0, L), R0: CSV with columns x,y and perhaps id and strength, a state file, or a trajectory (the last
     /// frame).
-    /// Their number replaces `system.particles`, and strengths in the file those of the configuration.
+    /// There may be more or fewer than `system.particles`, for which the scheme of the force is chosen; strengths in the
+    /// file are taken unless the configuration has some.
     #[arg(long, value_name = "FILE")]
     positions: PathBuf,
-    /// Write to this file instead of standard output.
+    /// Write to this file, which must not exist, instead of standard output.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
 
 pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<Verdict, CommandError> {
     let configuration = arguments.source.read([])?;
+    if let Some(path) = arguments.out.as_ref().filter(|path| path.exists()) {
+        return Err(CommandError::Exists { path: path.clone(), another: "another file" });
+    }
     reporter.detail(&configuration.scheme_line());
     let rows = forces(&configuration, &arguments.positions)?;
     match &arguments.out {

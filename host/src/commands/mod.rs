@@ -141,6 +141,8 @@ enum CommandError {
     OneTable(PathBuf),
     #[error("{}: this directory holds no tables itself; name one in it that does: {names}", directory.display())]
     TablesInside { directory: PathBuf, names: String },
+    #[error("--thresholds: found {above} after {below}, expected increasing numbers")]
+    Thresholds { below: f64, above: f64 },
     #[error("{}: this file exists: name {another}, or remove it", path.display())]
     Exists { path: PathBuf, another: &'static str },
     #[error("interrupted: nothing was written to {}", path.display())]
@@ -175,6 +177,7 @@ enum Verdict {
 #[must_use]
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    stop::outlive_limits_of_files();
     let output = &mut std::io::stdout().lock();
     let reporter = &mut Reporter::new(arguments.reporting, output);
     let result = match &arguments.command {

@@ -66,7 +66,7 @@ fn step_message(error: StepError) -> &'static str {
              a 256th of the box along x and y holds 32768); spread them, or use a finer mesh or fewer discs"
         }
         StepError::StepTooShort => {
-            "the largest force allows no step of 2⁻⁴⁰ R0²/D; \
+            "the largest force allows no step of 2^-40 R0^2/D; \
              separate overlapping discs or raise motion.max_displacement"
         }
         StepError::TimeOverflow => {

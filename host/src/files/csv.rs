@@ -41,6 +41,8 @@ struct Columns {
     x: usize,
     y: usize,
     strength: Option<usize>,
+    /// How many there are in all.
+    count: usize,
 }
 
 /// Reads the discs in the file at `path`, as a state at step 0 and time 0.
@@ -142,11 +144,17 @@ impl Columns {
             x: coordinate("x")?,
             y: coordinate("y")?,
             strength: column("strength")?,
+            count: values.count,
         })
     }
 
     /// Reads one row.
     fn add_row(&self, torus: &Torus, line: u64, values: &Values, rows: &mut Rows) -> Result<(), FormatError> {
+        if values.count > self.count {
+            let (found, expected) = (values.count, self.count);
+            let expected = format!("{expected}, as the columns named (decimals have a point)");
+            return Err(FormatError::Line { line, found: format!("{found} values"), expected });
+        }
         let value = |column: usize| {
             values.get(column).and_then(|value| std::str::from_utf8(value).ok()).ok_or_else(|| {
                 FormatError::Line {

@@ -47,7 +47,7 @@ impl Rows {
                 line,
                 column: "id",
                 found: quoted(text),
-                expected: "a whole number from 0".to_owned(),
+                expected: format!("a whole number from 0 to {}", LARGEST_PARTICLE_COUNT - 1),
             })?,
             None => self.rows.len() as u32,
         };
