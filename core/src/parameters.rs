@@ -122,7 +122,7 @@ pub struct Parameters {
     /// How the capillary force is summed.
     pub method: Method,
     /// Splitting α of [`Method::P3m`], 1/R0; in [`SPLITTING_RANGE`], and at most [`LARGEST_SPLITTING_OF_SPACING`]
-    /// mesh spacings. Not looked at otherwise.
+    /// over the mesh spacing. Not looked at otherwise.
     pub splitting: f64,
     /// Cut-off r_c of the near part of [`Method::P3m`], R0; at least [`SMALLEST_CUTOFF`], below L/2. Not looked at
     /// otherwise.

@@ -58,11 +58,11 @@ pub const SIGMAS_OF_FEW: f64 = 5.3;
 pub const DIFFUSION_RESOLUTION: f64 = 0.01;
 
 /// Least and largest bias of Euler's steps, 1 − (density of two discs at 2.0 to 2.1 R0 over Boltzmann's), for each
-/// R0²/D of the step's ceiling: PHYSICS gives 0.72 of Boltzmann's density at 0.005, 0.95 at 0.001 and 0.99 at 2e-4, that
+/// R0²/D of the step's ceiling: Euler's step gives 0.72 of Boltzmann's density at 0.005, 0.95 at 0.001 and 0.99 at 2e-4, that
 /// is 50 to 56; a longer step has a second-order part.
 pub const CONTACT_BIAS: (f64, f64) = (42.0, 62.0);
 
-/// Bias of Euler's steps allowed at 2e-4 R0²/D from 1.9 R0 on: PHYSICS gives 0.01 at contact.
+/// Bias of Euler's steps allowed at 2e-4 R0²/D from 1.9 R0 on: it is 0.01 at contact.
 pub const BIAS_AT_SHORT_STEPS: f64 = 0.015;
 
 // Accuracy of the mesh against Ewald sums: tests/accuracy.rs.
@@ -116,7 +116,7 @@ pub const SECOND_ORDER: Within = Within(3.5, 4.5);
 // Accuracy of the split force against Ewald sums: tests/split_accuracy.rs.
 
 /// Order, nodes along the side, αh and r_c (R0) of schemes for 2500 random discs, L = 500 R0, λ = 270 R0, and rms error over
-/// reference force: PHYSICS, section 3, and 30 % either way, for the sample and two digits.
+/// reference force: those of `MEASURED` in `host/src/accuracy/mod.rs`, and 30 % either way, for the sample and two digits.
 pub const SPLIT_ERROR: [((usize, usize, f64, f64), Within); 8] = [
     ((3, 256, 0.49, 12.0), Within(1e-3, 1.8e-3)),
     ((4, 256, 0.49, 12.0), Within(2.7e-4, 4.9e-4)),

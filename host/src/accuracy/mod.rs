@@ -9,7 +9,7 @@
 //! The estimate is that of uncorrelated discs, the state a run starts from, relative to their root mean square force
 //! ([`reference_force`], a closed form of which the terms stand there). Of random starts the measured error is 0.64 to
 //! 1.13 times the estimate, see `tests/accuracy-of-the-split-force.md`. In clusters the error grows as the root of the
-//! local density, but the force faster: relative to the root mean square force of the clusters themselves it is 3 to 60
+//! local density, but the force faster: relative to the root mean square force of the clusters themselves it is 3 to 30
 //! times smaller, so that the estimate is an upper bound; relative to that of the random start it is up to 6 times
 //! larger.
 //!

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
-    /// A run's directory, a state file, or a trajectory, of which the last frame counts.
+    /// A run's directory, a state file, or a trajectory (.gsd, .npz, .xyz), of which the last frame counts.
     #[arg(value_name = "DIR|FILE")]
     path: PathBuf,
 }

@@ -63,8 +63,9 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let count = sweep.members().iter().filter(|member| selection.holds(member.index)).count();
     let workers = arguments.workers.map_or_else(processors, usize::from);
     reporter.note(&format!(
-        "{count} of {} members in {workers} threads, results in {}",
+        "{count} of {} members in {workers} thread{}, results in {}",
         sweep.members().len(),
+        if workers == 1 { "" } else { "s" },
         directory.display()
     ));
     let stop = StopSignal::catch()?;

@@ -319,7 +319,7 @@ pub const KEYS: &[Key] = &[
         unit: "R0",
         default: "0",
         help: "How far a disc moves before the force of the mesh is computed anew, also if the state at the start holds it and other \
-               keys have changed; 0 for every step",
+               keys have changed, from 2^-20 R0 and below a quarter of the box; 0 for every step",
     },
     Key {
         name: "mesh.grid",
@@ -493,7 +493,7 @@ pub const KEYS: &[Key] = &[
         kind: ABOVE_ZERO,
         unit: "R0",
         default: "5.3",
-        help: "Spacing of the grid of the density that they are those of",
+        help: "Spacing of the grid of the density that they are those of: 4 to 8192 cells along the box",
     },
     Key {
         name: "output.minkowski_thresholds",
@@ -542,7 +542,7 @@ pub const KEYS: &[Key] = &[
         kind: ABOVE_ZERO,
         unit: "R0",
         default: "7.5",
-        help: "Width of shells of discs by their radius at the start; a start in rings goes by its rings",
+        help: "Width of shells of discs by their radius at the start, at least 1e-3; a start in rings goes by its rings",
     },
     Key {
         name: "output.checkpoint_steps",

@@ -1,8 +1,8 @@
 """The paper's simulation as a physicist would write it in Python who wants it fast: numba and pyFFTW.
 
 Particle-mesh force with triangular shaped clouds (Eqs. 18 to 21), WCA repulsion from cells (Eq. 15), Ermak's step with
-uniform noise (Eqs. 16 and 17). Lengths in R0, energies in kBT, times in R0^2/D. The mesh is binary32, plans are measured
-and kept, every loop over discs or modes is compiled, no array is made during a run.
+uniform noise (Eqs. 16 and 17). Lengths in R0, energies in kBT, times in R0^2/D. The mesh is binary32, plans are searched
+for patiently and kept, every loop over discs or modes is compiled, no array is made during a run.
 
     paper_script.py step POSITIONS           times steps, batch by batch
     paper_script.py forces POSITIONS OUT     writes the forces, one row a disc
