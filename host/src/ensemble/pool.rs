@@ -276,7 +276,7 @@ mod tests {
 
     #[test]
     fn as_many_members_are_at_work_as_fit() {
-        let text = "version = 1\npreset = \"fig-5\"\nset = [\"force.method=pm\", \"mesh.grid=64\"]\nseeds = 2\n\
+        let text = "version = 1\npreset = \"fig-5\"\nset = [\"force.method=pm\", \"mesh.grid=64\", \"output.snapshots=0\"]\nseeds = 2\n\
                     [sweep]\n\"system.particles\" = [2500, 30000]\n";
         let sweep = Sweep::from_text("sizes", text, Path::new("")).unwrap();
         let members: Vec<&Member> = sweep.members().iter().collect();
