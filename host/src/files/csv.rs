@@ -150,11 +150,6 @@ impl Columns {
 
     /// Reads one row.
     fn add_row(&self, torus: &Torus, line: u64, values: &Values, rows: &mut Rows) -> Result<(), FormatError> {
-        if values.count > self.count {
-            let (found, expected) = (values.count, self.count);
-            let expected = format!("{expected}, as the columns named (decimals have a point)");
-            return Err(FormatError::Line { line, found: format!("{found} values"), expected });
-        }
         let value = |column: usize| {
             values.get(column).and_then(|value| std::str::from_utf8(value).ok()).ok_or_else(|| {
                 FormatError::Line {
@@ -169,6 +164,11 @@ impl Columns {
             y: coordinate(torus, line, "y", value(self.y)?)?,
         };
         let strength = self.strength.map(|column| strength(line, value(column)?)).transpose()?;
+        if values.count > self.count {
+            let (found, expected) = (values.count, self.count);
+            let expected = format!("{expected}, as the columns named (decimals have a point)");
+            return Err(FormatError::Line { line, found: format!("{found} values"), expected });
+        }
         rows.push(line, self.id.map(value).transpose()?, position, strength)
     }
 }
