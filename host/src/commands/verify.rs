@@ -37,8 +37,8 @@ pub(super) fn run(arguments: &Arguments, reporter: &mut Reporter<'_>) -> Result<
     let name = format!("{}: configuration", arguments.golden.display());
     let simulation = || -> Result<Simulation, CommandError> {
         let mut configuration = Configuration::from_text(&name, &golden.configuration, &[])?;
-        // Nothing is written, and the memory that rows would take is not asked for.
-        configuration.output = configuration.output.without_series();
+        // Nothing is written, and the memory that rows and snapshots would take is not asked for.
+        configuration.output = configuration.output.without_series_and_snapshots();
         Ok(Simulation::with_machinery(configuration, machinery)?)
     };
     if let Some(step) = arguments.stages {

@@ -183,9 +183,9 @@ impl Output {
         }
     }
 
-    /// The same without any series: of a run that writes none.
+    /// The same without any series or snapshots: of a run that writes none.
     #[must_use]
-    pub fn without_series(self) -> Self {
+    pub fn without_series_and_snapshots(self) -> Self {
         Self {
             observables: 0.0,
             minkowski: 0.0,
@@ -193,6 +193,7 @@ impl Output {
             radial_distribution: 0.0,
             structure_factor: 0.0,
             radii: 0.0,
+            snapshots: 0.0,
             ..self
         }
     }
