@@ -1,4 +1,5 @@
-//! Progress of a run, and of what goes through frames or repeats steps: a bar on a terminal, a line now and then elsewhere, nothing with `--quiet`.
+//! Progress of a run, and of what goes through frames or repeats steps: a bar on a terminal, a line now and then
+//! elsewhere, nothing with `--quiet`.
 
 use super::Reporter;
 use crate::simulation::Simulation;

@@ -18,10 +18,10 @@
 //! ```
 
 mod available;
-mod rows;
+mod output;
 
 pub use available::available;
-pub use rows::Part;
+pub use output::Part;
 
 use crate::configuration::{Configuration, Force};
 use meniscus_core::repulsion::CUTOFF;
@@ -79,7 +79,7 @@ pub fn estimate(configuration: &Configuration) -> u64 {
     let neighbours = 0.5 * PI * reach * reach * count / (system.side * system.side);
     let held = if configuration.mesh_refresh > 0.0 { BYTES_HELD } else { 0.0 };
     let always = BYTES_PER_NODE * grid * grid + (held + BYTES_PER_NEIGHBOUR * neighbours) * count;
-    let at_rest = BYTES_AT_REST * count + rows::estimate(configuration);
+    let at_rest = BYTES_AT_REST * count + output::estimate(configuration);
     (always + at_rest.max(BYTES_PER_DISC * count)) as u64
 }
 
@@ -94,7 +94,7 @@ pub fn check(configuration: &Configuration) -> Result<(), MemoryError> {
             particles: configuration.system.particles,
             grid: configuration.mesh.grid,
             needed,
-            largest: rows::largest(configuration)
+            largest: output::largest(configuration)
                 .filter(|(_, bytes)| bytes.saturating_mul(LARGE_PART) > needed),
             available,
             limit,
@@ -132,7 +132,8 @@ mod tests {
     #[test]
     fn tables_are_made_one_after_the_other() {
         let run = |more: &str| {
-            let own = "force.method=pm system.particles=100000 system.box=2000 mesh.grid=256 output.observables=0 output.snapshots=0";
+            let own = "force.method=pm system.particles=100000 system.box=2000 mesh.grid=256 \
+                       output.observables=0 output.snapshots=0";
             estimate(&configuration(&format!("{own} {more}")))
         };
         let [density, pairs] =

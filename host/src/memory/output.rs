@@ -1,4 +1,5 @@
-//! What the rows of a run's tables and its snapshots take besides the run, at the least: measured, and understood.
+//! What a run's output takes besides the run, the rows of its tables and its snapshots, at the least: measured, and
+//! understood.
 //!
 //! Each series keeps something from one row to the next, and needs more while its rows are made; series are made one after
 //! the other, snapshots after them. What trajectories take is less than what the tables do.
